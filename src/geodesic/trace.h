@@ -1,0 +1,56 @@
+// Initial-value geodesics: the curve that leaves a point in a direction, with its Jacobi field.
+#pragma once
+
+#include <vector>
+
+#include "surface/surface.h"
+
+namespace geovor {
+
+/// A point of a unit-speed geodesic x(s) together with the Jacobi field y along it (proposition 3.6 of the paper):
+/// y'' = -K y, y(0) = 0, y'(0) = 1. |y| is how fast neighbouring geodesics from the start spread.
+struct GeodesicState {
+  Uv p;
+  UvVec d;         ///< dx/ds in the parameter plane; unit length in the surface's metric
+  double y = 0.0;  ///< model units per radian
+  double dy = 1.0;
+};
+
+enum class TraceStatus {
+  Converged,         ///< the whole length was covered
+  LeftDomain,        ///< the geodesic met the border of the surface's domain; the state is the last point inside
+  StepLimit,         ///< too many steps (see TraceOptions::max_steps): the state is the last accepted one
+  DegenerateMetric,  ///< EG - F^2 vanished or became NaN near the state: a pole or a collapsed side
+};
+
+struct TraceOptions {
+  /// Error allowed in the end point, relative to the length of the path.
+  double tolerance = 1e-12;
+  /// Accepted and rejected steps together.
+  int max_steps = 10000;
+  /// Stop at the border of Surface::domain() (never in a periodic direction). If false the outermost analytic piece is
+  /// continued, which is what a boundary-value solver wants while it is still on its way.
+  bool stop_at_domain = true;
+};
+
+struct TraceResult {
+  TraceStatus status = TraceStatus::StepLimit;
+  GeodesicState end;
+  double length = 0.0;  ///< arc length really covered, model units
+  int steps = 0;
+  int evaluations = 0;  ///< surface jets
+};
+
+/// Follows the geodesic from `start` along `direction` (of any length but zero; it is normalized in the metric).
+/// Promises: with status Converged the end lies within options.tolerance * length of the true one, knots and all: the
+/// integrator (Dormand-Prince 8(5,3)) works on one analytic piece at a time and restarts on the line between two.
+/// Does not promise that the path is shortest; see geodesic/distance.h.
+TraceResult trace_geodesic(const Surface& surface, Uv start, UvVec direction, double length,
+                           const TraceOptions& options = {});
+
+/// Points of the same geodesic at `count` + 1 equal arc lengths from 0 to `length`, both ends included; shorter where the
+/// geodesic stops early.
+std::vector<GeodesicState> sample_geodesic(const Surface& surface, Uv start, UvVec direction, double length, int count,
+                                           const TraceOptions& options = {});
+
+}  // namespace geovor
