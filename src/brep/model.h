@@ -74,6 +74,7 @@ struct CadShell {
 struct CadModel {
   std::string file;                   ///< as the user gave it
   std::string unit = "mm";            ///< of all lengths here
+  std::string file_unit;              ///< the unit that the file states, for information; empty where it states none
   std::vector<CadVertex> vertices;
   std::vector<CadEdge> edges;
   std::vector<CadFace> faces;         ///< face i is FaceN with N = i + 1
