@@ -1,0 +1,64 @@
+// The B-spline basis functions of one span and their derivatives, at any parameter: outside the span they are the
+// continuation of the span's own polynomials. [Piegl & Tiller, The NURBS Book, algorithms A2.2 and A2.3, rewritten with
+// the reciprocals of the knot differences kept in the knot vector.]
+#pragma once
+
+#include <array>
+
+#include "surface/knot_vector.h"
+
+namespace geovor {
+
+/// Values (row 0) and derivatives up to order `Orders - 1` of the p + 1 functions that do not vanish on a span.
+template <int Orders, int MaxDegree>
+using BasisRows = std::array<std::array<double, MaxDegree + 1>, Orders>;
+
+namespace detail {
+
+// From the functions of degree q - 1 (q of them) to those of degree q. The two terms are convex weights inside the
+// span.
+inline void raise(double* N, int q, const double* reciprocal, const double* t, double x) {
+  double saved = 0.0;
+  for (int r = 0; r < q; ++r) {
+    const double term = N[r] * reciprocal[r];
+    N[r] = saved + (t[1 + r] - x) * term;
+    saved = (x - t[1 + r - q]) * term;
+  }
+  N[q] = saved;
+}
+
+// From the k-th derivatives of degree q - 1 to the (k+1)-th derivatives of degree q: N' = q (N_i/… - N_i+1/…).
+inline void differentiate(double* N, int q, const double* reciprocal) {
+  double saved = 0.0;
+  for (int r = 0; r < q; ++r) {
+    const double term = q * N[r] * reciprocal[r];
+    N[r] = saved - term;
+    saved = term;
+  }
+  N[q] = saved;
+}
+
+}  // namespace detail
+
+/// `Degree` > 0 fixes the degree at compile time (and must be the knots' degree); 0 reads it from the knots.
+template <int Orders, int Degree, int MaxDegree = Degree == 0 ? kMaxDegree : Degree>
+inline void basis_functions(const KnotVector& knots, int span, double x, BasisRows<Orders, MaxDegree>& rows) {
+  const int p = Degree == 0 ? knots.degree() : Degree;
+  const double* t = &knots.flat()[span];
+  const double* reciprocals = knots.reciprocals(span);
+  auto triangle = [reciprocals](int q) { return reciprocals + q * (q - 1) / 2; };
+
+  auto& N = rows[0];
+  N[0] = 1.0;
+  for (int q = 0; q <= p; ++q) {
+    if (q > 0) detail::raise(N.data(), q, triangle(q), t, x);
+    const int order = p - q;  // the functions of degree p - order start the derivative of that order
+    if (order > 0 && order < Orders) {
+      for (int r = 0; r <= q; ++r) rows[order][r] = N[r];
+      for (int up = q + 1; up <= p; ++up) detail::differentiate(rows[order].data(), up, triangle(up));
+    }
+  }
+  for (int order = p + 1; order < Orders; ++order) rows[order].fill(0.0);
+}
+
+}  // namespace geovor

@@ -1,0 +1,186 @@
+#include "surface/bspline_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "surface/bspline_basis.h"
+
+namespace geovor {
+namespace {
+
+[[noreturn]] void reject(const std::string& what) { throw Error(ErrorCode::FaceRejected, what); }
+
+// Weights that differ by rounding only describe a polynomial surface.
+bool differ(const std::vector<double>& weights) {
+  constexpr double kEqualWeights = 1e-15;
+  const auto [lo, hi] = std::minmax_element(weights.begin(), weights.end());
+  return !weights.empty() && *hi - *lo > kEqualWeights * *hi;
+}
+
+void check(size_t count, const std::vector<Xyz>& poles, const std::vector<double>& weights) {
+  if (poles.size() != count)
+    reject("a B-spline surface has " + std::to_string(poles.size()) + " poles where its knots ask for " +
+           std::to_string(count) + "; repair the knots or the poles");
+  if (!weights.empty() && weights.size() != count)
+    reject("a B-spline surface has not one weight a pole; repair the weights");
+  for (const Xyz& p : poles)
+    if (!p.allFinite()) reject("a pole of a B-spline surface is not finite; repair the poles");
+  for (double w : weights)
+    if (!(w > 0.0) || !std::isfinite(w)) reject("a weight of a B-spline surface is not positive; repair the weights");
+}
+
+Xyz centre_of(const std::vector<Xyz>& poles) {
+  Xyz lo = poles.front(), hi = lo;
+  for (const Xyz& p : poles) {
+    lo = lo.cwiseMin(p);
+    hi = hi.cwiseMax(p);
+  }
+  return 0.5 * (lo + hi);
+}
+
+// Undoes the homogeneous coordinates: with A = w S, S_u = (A_u - w_u S) / w and so on by Leibniz.
+SurfaceJet project_homogeneous(const double (&H)[6][4], const Xyz& centre) {
+  auto A = [&H](int k) { return Xyz(H[k][0], H[k][1], H[k][2]); };
+  const double r = 1.0 / H[0][3];
+  const double wu = H[1][3], wv = H[2][3], wuu = H[3][3], wuv = H[4][3], wvv = H[5][3];
+  SurfaceJet j;
+  j.S = r * A(0);
+  j.Su = r * (A(1) - wu * j.S);
+  j.Sv = r * (A(2) - wv * j.S);
+  j.Suu = r * (A(3) - 2.0 * wu * j.Su - wuu * j.S);
+  j.Suv = r * (A(4) - wu * j.Sv - wv * j.Su - wuv * j.S);
+  j.Svv = r * (A(5) - 2.0 * wv * j.Sv - wvv * j.S);
+  j.S += centre;
+  return j;
+}
+
+double unwind(const KnotVector& knots, const Interval& box, int span, double x) {
+  const double lo = knots.flat()[span];
+  if (!knots.periodic() || box.lo == lo) return x;
+  return x - std::round((box.lo - lo) / knots.period()) * knots.period();
+}
+
+}  // namespace
+
+// Poles are kept relative to the middle of their box: a part modelled far from the origin would otherwise lose digits
+// of its derivatives in sums of large, nearly equal terms.
+BSplineSurface::BSplineSurface(KnotVector u_knots, KnotVector v_knots, const std::vector<Xyz>& poles,
+                               const std::vector<double>& weights)
+    : u_knots_(std::move(u_knots)), v_knots_(std::move(v_knots)) {
+  const int nu = u_knots_.pole_count(), nv = v_knots_.pole_count();
+  check(static_cast<size_t>(nu) * nv, poles, weights);
+  rational_ = differ(weights);
+  centre_ = centre_of(poles);
+  const int width = rational_ ? 4 : 3;
+  row_length_ = v_knots_.unrolled_count() * width;
+  poles_.reserve(static_cast<size_t>(u_knots_.unrolled_count()) * row_length_);
+  for (int i = 0; i < u_knots_.unrolled_count(); ++i) {
+    for (int j = 0; j < v_knots_.unrolled_count(); ++j) {
+      const size_t at = static_cast<size_t>(i % nu) * nv + j % nv;
+      const double w = rational_ ? weights[at] : 1.0;
+      const Xyz local = w * (poles[at] - centre_);
+      poles_.insert(poles_.end(), local.data(), local.data() + 3);
+      if (rational_) poles_.push_back(w);
+    }
+  }
+  kernel_ = choose_kernel();
+}
+
+// Degrees fixed at compile time are worth a factor of three; CAD surfaces are mostly bilinear to biquintic with equal
+// degrees. Everything else runs through the general kernel.
+BSplineSurface::Kernel BSplineSurface::choose_kernel() const {
+  const int p = u_knots_.degree() == v_knots_.degree() ? u_knots_.degree() : 0;
+  switch (p) {
+    case 1:
+      return rational_ ? &BSplineSurface::evaluate<1, 4> : &BSplineSurface::evaluate<1, 3>;
+    case 2:
+      return rational_ ? &BSplineSurface::evaluate<2, 4> : &BSplineSurface::evaluate<2, 3>;
+    case 3:
+      return rational_ ? &BSplineSurface::evaluate<3, 4> : &BSplineSurface::evaluate<3, 3>;
+    case 5:
+      return rational_ ? &BSplineSurface::evaluate<5, 4> : &BSplineSurface::evaluate<5, 3>;
+    default:
+      return rational_ ? &BSplineSurface::evaluate<0, 4> : &BSplineSurface::evaluate<0, 3>;
+  }
+}
+
+// The sum over u comes first: its inner loop runs over the contiguous coordinates of a row, so that it vectorizes
+// without idle lanes. The sums over v then work on the three rows r, r_u, r_uu.
+template <int Degree, int Width>
+SurfaceJet BSplineSurface::evaluate(int u_span, int v_span, double u, double v) const {
+  constexpr int kMax = Degree == 0 ? kMaxDegree : Degree;
+  const int p = Degree == 0 ? u_knots_.degree() : Degree;
+  const int q = Degree == 0 ? v_knots_.degree() : Degree;
+  BasisRows<3, kMax> Nu, Nv;
+  basis_functions<3, Degree>(u_knots_, u_span, u, Nu);
+  basis_functions<3, Degree>(v_knots_, v_span, v, Nv);
+
+  double rows[3][(kMax + 1) * Width];
+  const int length = (q + 1) * Width;
+  const double* first = &poles_[static_cast<size_t>(u_span - p) * row_length_ + (v_span - q) * Width];
+  for (int k = 0; k < 3; ++k) {
+    const double* pole = first;
+    for (int m = 0; m < length; ++m) rows[k][m] = Nu[k][0] * pole[m];
+    for (int i = 1; i <= p; ++i) {
+      pole += row_length_;
+      for (int m = 0; m < length; ++m) rows[k][m] += Nu[k][i] * pole[m];
+    }
+  }
+
+  // Order of the sums: S, Su, Sv, Suu, Suv, Svv.
+  constexpr int kOfU[6] = {0, 1, 0, 2, 1, 0};
+  constexpr int kOfV[6] = {0, 0, 1, 0, 1, 2};
+  double H[6][Width];
+  for (int k = 0; k < 6; ++k) {
+    const double* row = rows[kOfU[k]];
+    const double* N = Nv[kOfV[k]].data();
+    for (int c = 0; c < Width; ++c) H[k][c] = N[0] * row[c];
+    for (int j = 1; j <= q; ++j)
+      for (int c = 0; c < Width; ++c) H[k][c] += N[j] * row[j * Width + c];
+  }
+  if constexpr (Width == 4) {
+    return project_homogeneous(H, centre_);
+  } else {
+    auto at = [&H](int k) { return Xyz(H[k][0], H[k][1], H[k][2]); };
+    return {at(0) + centre_, at(1), at(2), at(3), at(4), at(5)};
+  }
+}
+
+std::optional<double> BSplineSurface::u_period() const {
+  return u_knots_.periodic() ? std::optional(u_knots_.period()) : std::nullopt;
+}
+
+std::optional<double> BSplineSurface::v_period() const {
+  return v_knots_.periodic() ? std::optional(v_knots_.period()) : std::nullopt;
+}
+
+SurfaceJet BSplineSurface::jet(Uv p) const {
+  const KnotSpan u = u_knots_.find(p.u, 0.0), v = v_knots_.find(p.v, 0.0);
+  const double x = u.turns == 0.0 ? p.u : p.u - u.turns * u_knots_.period();
+  const double y = v.turns == 0.0 ? p.v : p.v - v.turns * v_knots_.period();
+  return (this->*kernel_)(u.index, v.index, x, y);
+}
+
+SurfaceJet BSplineSurface::jet(Uv p, const Span& span) const {
+  return (this->*kernel_)(span.u, span.v, unwind(u_knots_, span.box.u, span.u, p.u),
+                          unwind(v_knots_, span.box.v, span.v, p.v));
+}
+
+Xyz BSplineSurface::position(Uv p) const { return jet(p).S; }
+
+Span BSplineSurface::span(Uv p, UvVec towards) const {
+  const KnotSpan u = u_knots_.find(p.u, towards.u), v = v_knots_.find(p.v, towards.v);
+  return {u.index, v.index, {u_knots_.box(u), v_knots_.box(v)}};
+}
+
+int BSplineSurface::continuity() const { return std::min(u_knots_.continuity(kSmooth), v_knots_.continuity(kSmooth)); }
+
+BSplineSurface::KnotLines BSplineSurface::knot_lines() const {
+  const auto& u = u_knots_.lines();
+  const auto& v = v_knots_.lines();
+  return {{u.begin() + 1, u.end() - 1}, {v.begin() + 1, v.end() - 1}};
+}
+
+}  // namespace geovor

@@ -1,0 +1,57 @@
+// Tensor-product B-spline surfaces, polynomial or rational, open or periodic, of any degree up to kMaxDegree.
+#pragma once
+
+#include <vector>
+
+#include "surface/knot_vector.h"
+#include "surface/surface.h"
+
+namespace geovor {
+
+class BSplineSurface final : public Surface {
+ public:
+  /// `poles` run along v first: pole (i, j) is poles[i * v_knots.pole_count() + j]; `weights` likewise, empty for a
+  /// polynomial surface. Equal weights are dropped. Throws Error(FaceRejected) if the counts do not fit the knots, a
+  /// coordinate is not finite or a weight is not positive.
+  BSplineSurface(KnotVector u_knots, KnotVector v_knots, const std::vector<Xyz>& poles,
+                 const std::vector<double>& weights = {});
+
+  SurfaceKind kind() const override { return SurfaceKind::BSpline; }
+  UvBox domain() const override { return {u_knots_.domain(), v_knots_.domain()}; }
+  std::optional<double> u_period() const override;
+  std::optional<double> v_period() const override;
+
+  SurfaceJet jet(Uv p) const override;
+  SurfaceJet jet(Uv p, const Span& span) const override;
+  Xyz position(Uv p) const override;
+
+  /// Span::box is infinite on the outer side of the outermost spans of a direction that is not periodic, since those
+  /// are continued there; in a periodic direction it is the copy that holds p.
+  Span span(Uv p, UvVec towards) const override;
+  int continuity() const override;
+
+  const KnotVector& u_knots() const { return u_knots_; }
+  const KnotVector& v_knots() const { return v_knots_; }
+  bool rational() const { return rational_; }
+
+  /// Distinct knots strictly inside the domain: the lines across which the surface is not analytic.
+  struct KnotLines {
+    std::vector<double> u, v;
+  };
+  KnotLines knot_lines() const;
+
+ private:
+  using Kernel = SurfaceJet (BSplineSurface::*)(int u_span, int v_span, double u, double v) const;
+  template <int Degree, int Width>
+  SurfaceJet evaluate(int u_span, int v_span, double u, double v) const;
+  Kernel choose_kernel() const;
+
+  KnotVector u_knots_, v_knots_;
+  bool rational_ = false;
+  Xyz centre_ = Xyz::Zero();   // poles are kept relative to it
+  std::vector<double> poles_;  // unrolled rows of (x, y, z) or (wx, wy, wz, w)
+  int row_length_ = 0;         // doubles a row of poles_ (one index i, all j)
+  Kernel kernel_;
+};
+
+}  // namespace geovor

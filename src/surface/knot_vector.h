@@ -1,0 +1,81 @@
+// The knots of one parametric direction of a B-spline, periodic or not, with the search for the span of a parameter.
+#pragma once
+
+#include <vector>
+
+#include "base/interval.h"
+
+namespace geovor {
+
+/// Highest degree of a B-spline (that of OpenCASCADE).
+inline constexpr int kMaxDegree = 25;
+
+/// A span as a knot vector knows it: the flat index i of the non-empty interval [t_i, t_i+1], and how many whole
+/// periods the parameter asked for lies beyond the principal one.
+struct KnotSpan {
+  int index = 0;
+  double turns = 0.0;
+};
+
+/// Knots t_0 <= t_1 <= … with degree p. Periodic knots are unrolled at construction: the flat sequence is continued by
+/// p knots beyond each end of the period, so that evaluation knows one case only.
+class KnotVector {
+ public:
+  /// As CAD files state them: ascending distinct knots with multiplicities. Not periodic: poles = sum of the
+  /// multiplicities - p - 1. Periodic: the last knot repeats the first one, poles = sum of the multiplicities without
+  /// the last. Throws Error(FaceRejected) if the knots do not ascend or a multiplicity is out of range.
+  KnotVector(const std::vector<double>& knots, const std::vector<int>& multiplicities, int degree,
+             bool periodic = false);
+
+  /// The flat sequence, equal knots repeated; not periodic.
+  static KnotVector from_flat(const std::vector<double>& flat, int degree);
+
+  int degree() const { return degree_; }
+  bool periodic() const { return periodic_; }
+  double period() const { return domain_.length(); }  ///< REQUIRES: periodic()
+  const Interval& domain() const { return domain_; }
+  /// Number of poles that the caller has to give.
+  int pole_count() const { return pole_count_; }
+  /// Number of poles after unrolling: pole j of the unrolled row is pole j mod pole_count().
+  int unrolled_count() const { return static_cast<int>(flat_.size()) - degree_ - 1; }
+  const std::vector<double>& flat() const { return flat_; }
+  /// Distinct knots of the domain, both ends included.
+  const std::vector<double>& lines() const { return lines_; }
+  /// Smallest order of continuity at the knots inside the domain (and, if periodic, across its ends);
+  /// `smooth` where there are none.
+  int continuity(int smooth) const;
+
+  /// The span that holds x; on a knot (to rounding) the one into which the sign of `towards` points, the right one if
+  /// that is 0. Outside a domain that is not periodic: the outermost span.
+  KnotSpan find(double x, double towards) const;
+
+  /// Borders of a span around the parameter asked for: infinite where a domain that is not periodic ends, so that the
+  /// outermost span holds everything beyond.
+  Interval box(const KnotSpan& span) const;
+
+  /// Reciprocals 1 / (t_{i+1+r} - t_{i+1+r-q}), q = 1 … p, r = 0 … q-1, of span i, that the recurrences of the basis
+  /// functions need; entry (q, r) is at q (q - 1) / 2 + r.
+  const double* reciprocals(int span) const { return &reciprocals_[row_of_span_[span] * reciprocal_stride_]; }
+
+ private:
+  void unroll(const std::vector<double>& knots, const std::vector<int>& multiplicities);
+  void index_spans();
+  int line_below(double x) const;
+
+  int degree_;
+  bool periodic_;
+  int pole_count_ = 0;
+  Interval domain_;
+  double rounding_ = 0.0;  // parameters closer than this are the same
+  std::vector<double> flat_;
+  std::vector<double> lines_;
+  std::vector<int> span_of_line_;  // flat index of the span that begins at lines_[k]
+  std::vector<int> multiplicity_;  // of lines_[k]
+  std::vector<int> bucket_;        // greatest k with lines_[k] <= left end of the bucket
+  double buckets_per_unit_ = 0.0;
+  std::vector<int> row_of_span_;  // by flat index: row of reciprocals_
+  int reciprocal_stride_ = 0;
+  std::vector<double> reciprocals_;
+};
+
+}  // namespace geovor
