@@ -1,52 +1,64 @@
 // The region of the parameter plane that a face covers, and what can be asked of it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "brep/border_index.h"
+#include "brep/face_area.h"
 #include "brep/model.h"
+#include "brep/parameter_stretch.h"
 
 namespace geovor {
 
-/// The trimmed region of a face, with its border flattened to polylines in the parameter plane.
+/// The trimmed region of a face, with its border flattened to polylines in the parameter plane. A face without loops
+/// covers its surface's whole domain. Immutable, so that any number of threads may ask.
 class FaceDomain {
  public:
-  /// `deflection`: how far, in space, the flattened border may lie from the true one.
+  /// `deflection`: how far, in space, the flattened border may lie from the true one; the bound is of first order, and
+  /// the surface's own curvature doesn't count.
+  /// Throws Error(FaceRejected) where the face has no surface, a p-curve is missing or not finite, or the region is
+  /// unbounded; Error(Usage) where the deflection is not positive.
   FaceDomain(const CadModel& model, const CadFace& face, double deflection);
 
-  /// Whether p lies in the face. In a periodic direction every copy of p counts.
+  /// Whether p lies in the face, its border included (to rounding). In a periodic direction every copy of p counts.
   bool contains(Uv p) const;
 
-  /// The copy of p (shifted by whole periods) that lies in the face, or p itself where none does.
+  /// The copy of p (shifted by whole periods) that lies in the face, or p itself where none does. Where p does, it
+  /// stays.
   Uv to_principal(Uv p) const;
 
-  /// Distance in space, to first order, from p to the flattened border; 0 where there is no border.
+  /// Distance in space, to first order through the metric at p, from p to the flattened border. Seams and poles are no
+  /// border; infinity where there is none. In a periodic direction the nearest copy counts.
   double distance_to_border(Uv p) const;
 
-  const UvBox& box() const { return box_; }
+  /// Where a polyline (with values that run on across seams) leaves the face.
+  struct Exit {
+    int segment = 0;  ///< from path[segment] to path[segment + 1]
+    Uv uv;            ///< the last place inside, on the border
+  };
+  /// The first place after which the path leaves the face, or nothing where it stays inside; Exit{0, path[0]} where it
+  /// starts outside. An excursion that stays within `slack` (space) of the border, by default the deflection of the
+  /// flattening, is none: a path along a curved border stays inside.
+  std::optional<Exit> first_exit(const std::vector<Uv>& path, double slack) const;
+  std::optional<Exit> first_exit(const std::vector<Uv>& path) const { return first_exit(path, deflection_); }
+
+  /// The stretches of the line of this v that lie inside, ascending.
+  std::vector<Interval> inside_at(double v) const;
+
+  /// The smallest rectangle around the region.
+  const UvBox& box() const { return index_.box(); }
   /// Closed polylines, first point not repeated; outer loops counter-clockwise, holes clockwise.
   const std::vector<std::vector<Uv>>& loops() const { return loops_; }
   const Surface& surface() const { return *surface_; }
+  double deflection() const { return deflection_; }
 
  private:
   SurfacePtr surface_;
-  UvBox box_;
+  double deflection_;
   std::vector<std::vector<Uv>> loops_;
+  std::vector<BorderSegment> border_;  ///< the segments that are neither seam nor pole
+  BorderIndex index_;
 };
-
-/// Area of the face: the integral of W = sqrt(EG - F^2) over its region, by Gauss-Legendre rules between the p-curves and
-/// knot lines, refined until two orders agree.
-struct Area {
-  double value = 0.0;
-  double error = 0.0;  ///< estimate, absolute
-};
-Area face_area(const CadModel& model, const CadFace& face);
-
-/// How unequal the parameterization is: the largest ratio of the singular values of (Su, Sv) inside the face, after one
-/// global scale a direction, and the smallest angle between Su and Sv (radians).
-struct Stretch {
-  double anisotropy = 1.0;
-  double smallest_angle = 0.0;
-};
-Stretch parameter_stretch(const FaceDomain& domain);
 
 }  // namespace geovor

@@ -19,20 +19,20 @@ struct CadVertex {
 
 /// An edge of the CAD: a piece of a space curve, used by any number of faces.
 struct CadEdge {
-  Curve3Ptr curve;           ///< null for a degenerated edge (a pole: its p-curve has length, the edge has none)
-  Interval range;            ///< the piece of `curve`
-  int first_vertex = -1;     ///< vertex at range.lo, index into CadModel::vertices; -1: none known
-  int last_vertex = -1;      ///< vertex at range.hi
-  double tolerance = 0.0;    ///< the CAD's promise: curve and surfaces lie within this distance
+  Curve3Ptr curve;         ///< null for a degenerated edge (a pole: its p-curve has length, the edge has none)
+  Interval range;          ///< the piece of `curve`
+  int first_vertex = -1;   ///< vertex at range.lo, index into CadModel::vertices; -1: none known
+  int last_vertex = -1;    ///< vertex at range.hi
+  double tolerance = 0.0;  ///< the CAD's promise: curve and surfaces lie within this distance
   bool degenerate() const { return curve == nullptr; }
 };
 
 /// One use of an edge by a face.
 struct Coedge {
-  int edge = -1;             ///< index into CadModel::edges
-  Curve2Ptr pcurve;          ///< the edge in the face's parameter plane; pcurve(t) belongs to curve(t), same t
-  Interval range;            ///< of the p-curve; equals the edge's range where that is not degenerate
-  bool reversed = false;     ///< the loop runs through the edge from range.hi to range.lo
+  int edge = -1;          ///< index into CadModel::edges
+  Curve2Ptr pcurve;       ///< the edge in the face's parameter plane; pcurve(t) belongs to curve(t), same t
+  Interval range;         ///< of the p-curve; equals the edge's range where that is not degenerate
+  bool reversed = false;  ///< the loop runs through the edge from range.hi to range.lo
 };
 
 /// A closed chain of coedges in the order of travel, with the material of the face on the left in the parameter
@@ -48,12 +48,12 @@ struct Colour {
 /// A face: a piece of a surface. On a closed surface the loops run along the seam (its edge is used twice, with two
 /// p-curves) and along the poles (degenerated edges), so that in the parameter plane they always bound a region.
 struct CadFace {
-  int number = 0;                     ///< FreeCAD's FaceN, from 1
-  std::string name;                   ///< the file's name of the face, may be empty
+  int number = 0;    ///< FreeCAD's FaceN, from 1
+  std::string name;  ///< the file's name of the face, may be empty
   std::optional<Colour> colour;
-  SurfacePtr surface;                 ///< null where the surface can't be used; `problems` then says why
+  SurfacePtr surface;  ///< null where the surface can't be used; `problems` then says why
   std::vector<TrimLoop> loops;
-  bool reversed = false;              ///< the outward normal is -(Su x Sv)
+  bool reversed = false;  ///< the outward normal is -(Su x Sv)
   double tolerance = 0.0;
   std::vector<std::string> problems;  ///< what is wrong with it, one clear phrase each
 
@@ -72,14 +72,14 @@ struct CadShell {
 };
 
 struct CadModel {
-  std::string file;                   ///< as the user gave it
-  std::string unit = "mm";            ///< of all lengths here
-  std::string file_unit;              ///< the unit that the file states, for information; empty where it states none
+  std::string file;         ///< as the user gave it
+  std::string unit = "mm";  ///< of all lengths here
+  std::string file_unit;    ///< the unit that the file states, for information; empty where it states none
   std::vector<CadVertex> vertices;
   std::vector<CadEdge> edges;
-  std::vector<CadFace> faces;         ///< face i is FaceN with N = i + 1
+  std::vector<CadFace> faces;  ///< face i is FaceN with N = i + 1
   std::vector<CadShell> shells;
-  Xyz lower = Xyz::Zero();            ///< bounding box
+  Xyz lower = Xyz::Zero();  ///< bounding box
   Xyz upper = Xyz::Zero();
   std::vector<std::string> warnings;
 
