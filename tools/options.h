@@ -1,0 +1,54 @@
+// The command line: what each command was asked to do.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "progress.h"
+
+namespace geovor {
+
+struct InfoRequest {
+  std::string input;
+  bool json = false;
+};
+
+struct MeshRequest {
+  std::string input;
+  std::vector<std::string> outputs;
+  double size = 0.0;                                            ///< model units
+  double min_size = 0.0;                                        ///< model units; 0: the mesher's choice
+  double deflection = std::numeric_limits<double>::infinity();  ///< model units
+  double angle = 15.0;                                          ///< degrees
+  double gradation = 0.5;
+  std::vector<int> faces;  ///< empty: all
+  int threads = 0;         ///< 0: all cores
+  std::string report;      ///< path, empty: none
+  ProgressWish progress = ProgressWish::WhereTerminal;
+  bool ascii = false;   ///< .stl as text
+  bool strict = false;  ///< write nothing unless every face was meshed
+};
+
+struct VoronoiRequest {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::optional<int> face;
+  std::string sites;  ///< path of a CSV file, empty: none
+  int count = 0;      ///< sites to place; 0: none
+  std::uint64_t seed = 1;
+};
+
+/// Nothing left to do: the help or the version was printed.
+struct NothingRequest {};
+
+using Request = std::variant<NothingRequest, InfoRequest, MeshRequest, VoronoiRequest>;
+
+/// Prints the help or the version on stdout where these are asked for. Throws Error(Usage), with one line that ends in
+/// where to read more.
+Request parse_command_line(int argc, const char* const* argv);
+
+}  // namespace geovor

@@ -1,0 +1,89 @@
+#include "sites_file.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace geovor {
+namespace {
+
+const char* const kBlanks = " \t\r";
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  while (begin <= line.size()) {
+    const std::size_t comma = std::min(line.find(',', begin), line.size());
+    cells.push_back(trimmed(line.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  return cells;
+}
+
+[[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
+  throw Error(ErrorCode::Usage, fmt::format("{}: line {}: {}", path, line, message));
+}
+
+double number(const std::string& cell, const std::string& path, int line) {
+  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
+  const char* end = cell.data() + cell.size();
+  double value = 0.0;
+  const auto [stop, status] = std::from_chars(begin, end, value);
+  if (status != std::errc() || stop != end || !std::isfinite(value)) {
+    fail(path, line, fmt::format("'{}' is no number; write one such as 0.25", cell));
+  }
+  return value;
+}
+
+/// Whether the header says x,y,z.
+bool parse_header(const std::vector<std::string>& cells, const std::string& path, int line) {
+  if (cells == std::vector<std::string>{"u", "v"}) return false;
+  if (cells == std::vector<std::string>{"x", "y", "z"}) return true;
+  fail(path, line, "the header is missing; begin the file with the line u,v or x,y,z");
+}
+
+SiteRow parse_row(const std::vector<std::string>& cells, std::size_t columns, const std::string& path, int line) {
+  if (cells.size() != columns) {
+    fail(path, line,
+         fmt::format("{} numbers where the header names {}; write {} a line", cells.size(), columns, columns));
+  }
+  SiteRow row;
+  row.line = line;
+  for (std::size_t i = 0; i < columns; ++i) row.values[i] = number(cells[i], path, line);
+  return row;
+}
+
+}  // namespace
+
+SitesFile read_sites_file(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) throw Error(ErrorCode::Usage, path + ": the sites file can't be read; check its name");
+  SitesFile file;
+  bool header_seen = false;
+  std::string text;
+  for (int line = 1; std::getline(stream, text); ++line) {
+    const std::string content = trimmed(text.substr(0, text.find('#')));
+    if (content.empty()) continue;
+    const std::vector<std::string> cells = cells_of(content);
+    if (!header_seen) {
+      file.in_space = parse_header(cells, path, line);
+      header_seen = true;
+      continue;
+    }
+    file.rows.push_back(parse_row(cells, file.in_space ? 3 : 2, path, line));
+  }
+  if (file.rows.empty()) throw Error(ErrorCode::Usage, path + ": holds no site; add a line a site after the header");
+  return file;
+}
+
+}  // namespace geovor
