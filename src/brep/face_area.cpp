@@ -46,7 +46,7 @@ class GreenIntegral {
 
  private:
   std::vector<double> knots(bool in_u) const;
-  double integrate(const Panel& panel, int order);
+  double around(const Panel& panel, int order);
   double A(double u, double v, int order, int parts);
 
   const Surface& surface_;
@@ -138,7 +138,7 @@ double GreenIntegral::A(double u, double v, int order, int parts) {
   return u < box_.u.lo ? -sum : sum;
 }
 
-double GreenIntegral::integrate(const Panel& panel, int order) {
+double GreenIntegral::around(const Panel& panel, int order) {
   const GaussRule& rule = gauss_legendre(order);
   const double middle = 0.5 * (panel.from + panel.to), half = 0.5 * (panel.to - panel.from);
   // A p-curve along u whose dv is rounding would cost as much as the others and add nothing.
@@ -155,8 +155,8 @@ double GreenIntegral::integrate(const Panel& panel, int order) {
 }
 
 void GreenIntegral::evaluate(Panel& panel) {
-  panel.value = integrate(panel, kHighOrder);
-  panel.difference = std::abs(panel.value - integrate(panel, kLowOrder));
+  panel.value = around(panel, kHighOrder);
+  panel.difference = std::abs(panel.value - around(panel, kLowOrder));
 }
 
 /// The loops with the gaps between neighbouring coedges closed by straight lines: Green's theorem wants closed loops.
@@ -188,6 +188,9 @@ UvBox sampled_bounds(const std::vector<Coedge>& coedges) {
   for (const Coedge& c : coedges) {
     for (int i = 0; i <= kSamples; ++i) {
       const Eigen::Vector2d p = c.pcurve->position(c.range.lo + c.range.length() * i / kSamples);
+      if (!p.allFinite()) {
+        throw Error(ErrorCode::FaceRejected, "a p-curve has a point that is not a number; repair the face");
+      }
       box.u = {std::min(box.u.lo, p[0]), std::max(box.u.hi, p[0])};
       box.v = {std::min(box.v.lo, p[1]), std::max(box.v.hi, p[1])};
     }
@@ -208,11 +211,7 @@ Area sum_of(const std::vector<Panel>& panels) {
 
 Area face_area(const CadModel&, const CadFace& face) {
   const std::vector<Coedge> coedges = closed_chains(loops_or_whole_domain(face));
-  const UvBox box = sampled_bounds(coedges);
-  if (!(std::isfinite(box.u.length()) && std::isfinite(box.v.length()))) {
-    throw Error(ErrorCode::FaceRejected, "a p-curve has a point that is not a number; repair the face");
-  }
-  GreenIntegral integral(*face.surface, box);
+  GreenIntegral integral(*face.surface, sampled_bounds(coedges));
   std::vector<Panel> panels;
   for (const Coedge& coedge : coedges) integral.cut(coedge, panels);
   for (Panel& panel : panels) integral.evaluate(panel);
@@ -235,7 +234,11 @@ Area face_area(const CadModel&, const CadFace& face) {
       refined = true;
     }
   }
-  return sum_of(panels);
+  const Area area = sum_of(panels);
+  if (!std::isfinite(area.value)) {
+    throw Error(ErrorCode::FaceRejected, "the surface has a point inside the face that is not a number; repair it");
+  }
+  return area;
 }
 
 }  // namespace geovor
