@@ -56,12 +56,6 @@ SurfaceJet project_homogeneous(const double (&H)[6][4], const Xyz& centre) {
   return j;
 }
 
-double unwind(const KnotVector& knots, const Interval& box, int span, double x) {
-  const double lo = knots.flat()[span];
-  if (!knots.periodic() || box.lo == lo) return x;
-  return x - std::round((box.lo - lo) / knots.period()) * knots.period();
-}
-
 }  // namespace
 
 // Poles are kept relative to the middle of their box: a part modelled far from the origin would otherwise lose digits
@@ -164,8 +158,8 @@ SurfaceJet BSplineSurface::jet(Uv p) const {
 }
 
 SurfaceJet BSplineSurface::jet(Uv p, const Span& span) const {
-  return (this->*kernel_)(span.u, span.v, unwind(u_knots_, span.box.u, span.u, p.u),
-                          unwind(v_knots_, span.box.v, span.v, p.v));
+  return (this->*kernel_)(span.u, span.v, u_knots_.unwind(p.u, span.u, span.box.u),
+                          v_knots_.unwind(p.v, span.v, span.box.v));
 }
 
 Xyz BSplineSurface::position(Uv p) const { return jet(p).S; }

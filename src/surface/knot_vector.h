@@ -1,6 +1,7 @@
 // The knots of one parametric direction of a B-spline, periodic or not, with the search for the span of a parameter.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "base/interval.h"
@@ -52,6 +53,12 @@ class KnotVector {
   /// Borders of a span around the parameter asked for: infinite where a domain that is not periodic ends, so that the
   /// outermost span holds everything beyond.
   Interval box(const KnotSpan& span) const;
+
+  /// x moved by whole periods into the principal copy of a span whose box, as asked for, was `box`.
+  double unwind(double x, int span, const Interval& box) const {
+    if (!periodic_ || box.lo == flat_[span]) return x;
+    return x - std::round((box.lo - flat_[span]) / period()) * period();
+  }
 
   /// Reciprocals 1 / (t_{i+1+r} - t_{i+1+r-q}), q = 1 … p, r = 0 … q-1, of span i, that the recurrences of the basis
   /// functions need; entry (q, r) is at q (q - 1) / 2 + r.

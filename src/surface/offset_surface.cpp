@@ -1,0 +1,127 @@
+#include "surface/offset_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace geovor {
+namespace {
+
+// |Bu x Bv| below this part of |Bu| |Bv|, or of the larger of their squares, counts as a pole: the normal then has
+// fewer than six good digits.
+constexpr double kPole = 1e-10;
+
+// At a pole the normal is taken this part of the domain further inside.
+constexpr double kPoleStep = 1e-7;
+
+// Differences of fourth order with the step h on a function that varies over the length l are off by (h/l)^4 / 30 +
+// 1.5 eps l / h of its size: 4e-13 at h = 1e-3 l.
+constexpr double kStep = 1e-3;
+
+bool is_pole(const SurfaceJet& b) {
+  const double longest = std::max(b.Su.squaredNorm(), b.Sv.squaredNorm());
+  return !(b.Su.cross(b.Sv).norm() > kPole * longest);
+}
+
+struct Seconds {
+  Xyz uu, uv, vv;
+};
+
+// The derivative of the second derivatives of one piece in direction `d` (a unit step in u or in v).
+Seconds third_derivatives(const Surface& basis, Uv p, UvVec d, double h, const Span& span) {
+  const SurfaceJet a = basis.jet(p + h * d, span), b = basis.jet(p + -h * d, span);
+  const SurfaceJet aa = basis.jet(p + 2.0 * h * d, span), bb = basis.jet(p + -2.0 * h * d, span);
+  auto difference = [h](const Xyz& f1, const Xyz& b1, const Xyz& f2, const Xyz& b2) -> Xyz {
+    return (8.0 * (f1 - b1) - (f2 - b2)) / (12.0 * h);
+  };
+  return {difference(a.Suu, b.Suu, aa.Suu, bb.Suu), difference(a.Suv, b.Suv, aa.Suv, bb.Suv),
+          difference(a.Svv, b.Svv, aa.Svv, bb.Svv)};
+}
+
+// A length, in the parameter, over which the basis changes: its span, and the first derivative over the second.
+double step(const Interval& box, double first, double second) {
+  double length = std::isfinite(box.length()) ? box.length() : 1.0;
+  if (second * length > first && first > 0.0) length = first / second;
+  return kStep * length;
+}
+
+// n = N / |N| and its derivatives from those of N = Bu x Bv.
+struct Normal {
+  double length;
+  Xyz n, u, v;
+  Normal(const SurfaceJet& b, const Xyz& Nu, const Xyz& Nv) {
+    const Xyz N = b.Su.cross(b.Sv);
+    length = N.norm();
+    n = N / length;
+    u = (Nu - n.dot(Nu) * n) / length;
+    v = (Nv - n.dot(Nv) * n) / length;
+  }
+  // From |N| n = N by differentiating twice; the part along n follows from n.n = 1.
+  Xyz second(const Xyz& Nab, const Xyz& Na, const Xyz& Nb, const Xyz& na, const Xyz& nb) const {
+    const Xyz across = (Nab - n.dot(Na) * nb - n.dot(Nb) * na) / length;
+    return across - (n.dot(across) + na.dot(nb)) * n;
+  }
+};
+
+}  // namespace
+
+OffsetSurface::OffsetSurface(SurfacePtr basis, double distance) : basis_(std::move(basis)), distance_(distance) {
+  if (!basis_ || !std::isfinite(distance_))
+    throw Error(ErrorCode::FaceRejected, "an offset surface has no basis or no finite distance; repair the surface");
+}
+
+// Towards the middle of the domain, in the directions in which that is finite.
+Uv OffsetSurface::off_the_pole(Uv p) const {
+  const UvBox box = basis_->domain();
+  auto inward = [](const Interval& range, double x) {
+    if (!std::isfinite(range.length())) return x + kPoleStep;
+    return x < range.middle() ? x + kPoleStep * range.length() : x - kPoleStep * range.length();
+  };
+  return {inward(box.u, p.u), inward(box.v, p.v)};
+}
+
+Xyz OffsetSurface::position(Uv p) const {
+  const SurfaceJet b = basis_->jet(p);
+  if (is_pole(b)) return jet(p).S;
+  return b.S + distance_ * b.Su.cross(b.Sv).normalized();
+}
+
+SurfaceJet OffsetSurface::jet(Uv p, const Span& span) const {
+  const SurfaceJet b = basis_->jet(p, span);
+  if (is_pole(b)) {
+    const Uv q = off_the_pole(p);
+    const SurfaceJet inside = basis_->jet(q, span);
+    if (is_pole(inside)) return b;  // degenerate all around: no normal to follow
+    SurfaceJet j = jet(q, span);
+    j.S = b.S + (j.S - inside.S);
+    return j;
+  }
+  const Seconds du = third_derivatives(*basis_, p, {1.0, 0.0}, step(span.box.u, b.Su.norm(), b.Suu.norm()), span);
+  const Seconds dv = third_derivatives(*basis_, p, {0.0, 1.0}, step(span.box.v, b.Sv.norm(), b.Svv.norm()), span);
+
+  const Xyz Nu = b.Suu.cross(b.Sv) + b.Su.cross(b.Suv);
+  const Xyz Nv = b.Suv.cross(b.Sv) + b.Su.cross(b.Svv);
+  const Xyz Nuu = du.uu.cross(b.Sv) + 2.0 * b.Suu.cross(b.Suv) + b.Su.cross(du.uv);
+  const Xyz Nuv = du.uv.cross(b.Sv) + b.Suu.cross(b.Svv) + b.Su.cross(du.vv);
+  const Xyz Nvv = dv.uv.cross(b.Sv) + 2.0 * b.Suv.cross(b.Svv) + b.Su.cross(dv.vv);
+  const Normal n(b, Nu, Nv);
+
+  SurfaceJet j;
+  j.S = b.S + distance_ * n.n;
+  j.Su = b.Su + distance_ * n.u;
+  j.Sv = b.Sv + distance_ * n.v;
+  j.Suu = b.Suu + distance_ * n.second(Nuu, Nu, Nu, n.u, n.u);
+  j.Suv = b.Suv + distance_ * n.second(Nuv, Nu, Nv, n.u, n.v);
+  j.Svv = b.Svv + distance_ * n.second(Nvv, Nv, Nv, n.v, n.v);
+  return j;
+}
+
+// The normal has one derivative less than the basis.
+int OffsetSurface::continuity() const {
+  const int order = basis_->continuity();
+  return order == kSmooth ? kSmooth : std::max(order - 1, 0);
+}
+
+}  // namespace geovor
