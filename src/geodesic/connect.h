@@ -28,11 +28,11 @@ struct ConnectOptions {
 struct Connection {
   ConnectStatus status = ConnectStatus::NotConverged;
   double length = 0.0;
-  double angle = 0.0;       ///< t of the geodesic at the start
-  UvVec start_direction;    ///< unit, at the start, pointing along the path
-  UvVec end_direction;      ///< unit, at the end, pointing on along the path
-  double y = 0.0;           ///< Jacobi field at the end (y = 0 at the start)
-  double residual = 0.0;    ///< distance in space between the path's end and the point asked for
+  double angle = 0.0;          ///< t of the geodesic at the start
+  UvVec start_direction;       ///< unit, at the start, pointing along the path
+  UvVec end_direction;         ///< unit, at the end, pointing on along the path
+  double y = 0.0;              ///< Jacobi field at the end (y = 0 at the start)
+  double residual = 0.0;       ///< distance in space between the path's end and the point asked for
   bool leaves_domain = false;  ///< the path runs outside Surface::domain() on its way
   int iterations = 0;
   int evaluations = 0;

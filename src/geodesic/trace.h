@@ -48,8 +48,8 @@ struct TraceResult {
 TraceResult trace_geodesic(const Surface& surface, Uv start, UvVec direction, double length,
                            const TraceOptions& options = {});
 
-/// Points of the same geodesic at `count` + 1 equal arc lengths from 0 to `length`, both ends included; shorter where the
-/// geodesic stops early.
+/// Points of the same geodesic at `count` + 1 equal arc lengths from 0 to `length`, both ends included; shorter where
+/// the geodesic stops early.
 std::vector<GeodesicState> sample_geodesic(const Surface& surface, Uv start, UvVec direction, double length, int count,
                                            const TraceOptions& options = {});
 

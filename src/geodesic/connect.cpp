@@ -1,0 +1,52 @@
+#include "geodesic/connect.h"
+
+#include "geodesic/closed_forms.h"
+#include "geodesic/shooting.h"
+
+namespace geovor {
+namespace {
+
+constexpr int kEndJets = 2;
+
+Connection zero_length(const SurfaceJet& j, double angle) {
+  Connection c;
+  c.status = ConnectStatus::Converged;
+  c.angle = angle;
+  c.start_direction = c.end_direction = tangent_components(j, tangent_at_angle(j, angle));
+  return c;
+}
+
+bool regular(const SurfaceJet& j) { return unit_normal(j).allFinite(); }
+
+}  // namespace
+
+Connection connect(const Surface& surface, Uv from, Uv to, std::optional<Polar> guess, const ConnectOptions& options) {
+  if (auto closed = connect_closed_form(surface, from, to, guess)) return *closed;
+  const Ends ends(surface, from, to);
+  Connection c;
+  c.evaluations = kEndJets;
+  if (!regular(ends.at_from) || !regular(ends.at_to)) {
+    c.status = ConnectStatus::DegenerateMetric;
+    return c;
+  }
+  const bool same_point = ends.at_from.S == ends.at_to.S;
+  if (same_point && (guess ? guess->s == 0.0 : from == to)) {
+    c = zero_length(ends.at_from, guess ? guess->t : 0.0);
+    c.evaluations = kEndJets;
+    return c;
+  }
+  int spent = kEndJets;
+  const auto attempt = [&](Polar start) {
+    c = shoot(surface, ends, start, options);
+    c.evaluations = spent += c.evaluations;
+    return c.status == ConnectStatus::Converged;
+  };
+  if (guess && guess->s > 0.0 && attempt(*guess)) return c;
+  if (!guess) {
+    if (const auto near = guess_from_chord(ends); near && attempt(*near)) return c;
+  }
+  attempt(guess_from_parameters(surface, ends));
+  return c;
+}
+
+}  // namespace geovor

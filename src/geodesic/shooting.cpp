@@ -1,0 +1,192 @@
+#include "geodesic/shooting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geodesic/integrator.h"
+
+namespace geovor {
+namespace {
+
+// Newton's steps: no farther round than this, no shorter than a part of the length and no longer than a multiple.
+constexpr double kLargestTurn = 0.5;
+constexpr double kShortest = 0.25;
+constexpr double kLongest = 2.0;
+
+// While the shot is still off, the integrator's error only has to stay below what Newton's step will leave.
+constexpr double kLoosest = 1e-4;
+constexpr double kBelowResidual = 0.03;
+
+// Share of the tolerance that the integrator may use; the rest is for the last correction.
+constexpr double kIntegratorShare = 0.5;
+
+struct Shot {
+  GeodesicState state;
+  TraceStatus status;
+  Xyz tangent, across;      // unit vectors at the end, across = n x tangent
+  double a = 0.0, b = 0.0;  // what is missing to the target, along the two
+  double residual = 0.0;
+  UvBox reach;
+};
+
+Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance, int& evaluations) {
+  TraceOptions options;
+  options.tolerance = tolerance;
+  options.stop_at_domain = false;
+  const UvVec d = tangent_components(ends.at_from, tangent_at_angle(ends.at_from, aim.t));
+  GeodesicIntegrator path(surface, ends.from, d, aim.s, options);
+  Shot shot;
+  shot.status = path.advance(aim.s);
+  shot.state = path.state();
+  shot.reach = path.reach();
+  const SurfaceJet j = path.jet();
+  evaluations += path.evaluations() + 1;
+  shot.tangent = push_forward(j, shot.state.d).normalized();
+  shot.across = unit_normal(j).cross(shot.tangent);
+  const Xyz missing = ends.at_to.S - j.S;
+  shot.a = missing.dot(shot.tangent);
+  shot.b = missing.dot(shot.across);
+  shot.residual = missing.norm();
+  return shot;
+}
+
+// The step to the target, to second order in the missing piece: about the end the geodesic circle has the curvature
+// y'/y, and the circles through the target have y + a y'.
+Polar newton_step(const Shot& shot) {
+  const double y = shot.state.y, dy = shot.state.dy;
+  const double y_there = y + shot.a * dy;
+  return {shot.a + 0.5 * shot.b * shot.b * dy / y, shot.b / (y_there * y > 0.0 ? y_there : y)};
+}
+
+Polar limited(Polar step, double s) {
+  const double k = std::min({1.0, kLargestTurn / std::abs(step.t),
+                             step.s < 0.0 ? (1.0 - kShortest) * s / -step.s : (kLongest - 1.0) * s / step.s});
+  return {k * step.s, k * step.t};
+}
+
+// How small the residual has to be for the last step to need no shot of its own: what the step leaves is of second
+// order (third in the length), and y changes with the angle by the third power of the length in curvature radii.
+double correctable(const Shot& shot, const Ends& ends, double s, double tolerance) {
+  constexpr double kOfTolerance = 0.1;
+  constexpr double kErrorOfY = 1e-11;
+  const double scale = std::min(s, std::abs(shot.state.y) / std::max(1.0, std::abs(shot.state.dy)));
+  const double bend = ends.curvature * s;
+  return s * std::min(std::sqrt(kOfTolerance * tolerance * scale / s), kErrorOfY / (bend * bend * bend));
+}
+
+bool leaves(const Surface& surface, const UvBox& reach, const Ends& ends, double length) {
+  // Paths along a border stray over it by rounding.
+  constexpr double kStray = 1e-9;
+  const UvBox domain = surface.domain();
+  const double W = std::sqrt(first_form(ends.at_from).W2());
+  const double du = kStray * length * ends.at_from.Sv.norm() / W, dv = kStray * length * ends.at_from.Su.norm() / W;
+  const bool out_u = !surface.u_period() && (reach.u.lo < domain.u.lo - du || reach.u.hi > domain.u.hi + du);
+  const bool out_v = !surface.v_period() && (reach.v.lo < domain.v.lo - dv || reach.v.hi > domain.v.hi + dv);
+  return out_u || out_v;
+}
+
+// The connection that ends at the target: the shot, moved by the step that it lacks.
+Connection corrected(const Surface& surface, const Ends& ends, Polar aim, const Shot& shot) {
+  const Polar step = newton_step(shot);
+  Connection c;
+  c.status = ConnectStatus::Converged;
+  c.length = aim.s + step.s;
+  c.angle = std::remainder(aim.t + step.t, 2.0 * M_PI);
+  c.start_direction = tangent_components(ends.at_from, tangent_at_angle(ends.at_from, c.angle));
+  const UvVec end = tangent_components(ends.at_to, shot.tangent + step.t * shot.state.dy * shot.across);
+  c.end_direction = (1.0 / push_forward(ends.at_to, end).norm()) * end;
+  c.y = shot.state.y + shot.a * shot.state.dy;
+  c.residual = shot.residual * shot.residual / c.length;
+  c.leaves_domain = leaves(surface, shot.reach, ends, c.length);
+  return c;
+}
+
+}  // namespace
+
+Ends::Ends(const Surface& surface, Uv from_point, Uv to_point)
+    : from(from_point), to(to_point), at_from(surface.jet(from_point)), at_to(surface.jet(to_point)) {
+  curvature = std::max(curvatures(at_from).largest(), curvatures(at_to).largest());
+}
+
+Xyz tangent_at_angle(const SurfaceJet& j, double t) {
+  const Xyz e1 = j.Su.normalized();
+  return std::cos(t) * e1 + std::sin(t) * unit_normal(j).cross(e1);
+}
+
+double angle_of_tangent(const SurfaceJet& j, const Xyz& w) {
+  const Xyz e1 = j.Su.normalized();
+  return std::atan2(w.dot(unit_normal(j).cross(e1)), w.dot(e1));
+}
+
+Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const ConnectOptions& options) {
+  Connection last;
+  Polar aim = guess, step;
+  const double finest = kIntegratorShare * options.tolerance;
+  double tolerance = std::max(kLoosest, finest);
+  double best = std::numeric_limits<double>::infinity();
+  int evaluations = 0;
+  for (int i = 1; i <= options.max_iterations; ++i) {
+    const Shot shot = fire(surface, ends, aim, tolerance, evaluations);
+    last.length = aim.s;
+    last.angle = aim.t;
+    last.residual = shot.residual;
+    last.iterations = i;
+    if (shot.status == TraceStatus::DegenerateMetric) last.status = ConnectStatus::DegenerateMetric;
+    const bool finest_used = tolerance <= finest;
+    if (finest_used && shot.residual <= correctable(shot, ends, aim.s, options.tolerance)) {
+      last = corrected(surface, ends, aim, shot);
+      last.iterations = i;
+      break;
+    }
+    // Rounding may keep the residual from falling any more once the tolerance has become finer.
+    if (shot.status == TraceStatus::Converged && shot.residual < best) {
+      best = shot.residual;
+      step = limited(newton_step(shot), aim.s);
+      const double relative = shot.residual / aim.s;
+      tolerance = std::clamp(kBelowResidual * relative * relative, finest, std::max(kLoosest, finest));
+    } else {
+      aim = {aim.s - step.s, aim.t - step.t};
+      step = {0.5 * step.s, 0.5 * step.t};
+      // Halving a step that does not matter any more leads nowhere; NaN leaves too.
+      constexpr double kSmallestStep = 1e-3;
+      if (!(std::hypot(step.s / aim.s, step.t) > kSmallestStep * std::min(1.0, best / aim.s))) break;
+    }
+    aim = {aim.s + step.s, aim.t + step.t};
+  }
+  last.evaluations = evaluations;
+  return last;
+}
+
+// With T the tangent, B = n x T and II the second form, x'' = II(T,T) n and x''' . B = -II(T,T) II(T,B), so the chord c
+// of a path of length s has c . B = s^3 x'''/6 (taken at s/4, the centre of the integral's weight) and |c| = s - s^3
+// k^2/24.
+std::optional<Polar> guess_from_chord(const Ends& ends) {
+  constexpr double kGuided = 0.7;      // curvature radii
+  constexpr double kComparable = 4.0;  // of the parameter line's length to the chord's
+  const Xyz chord = ends.at_to.S - ends.at_from.S;
+  const double c = chord.norm();
+  const UvVec way = ends.to - ends.from;
+  const double line = 0.5 * (push_forward(ends.at_from, way).norm() + push_forward(ends.at_to, way).norm());
+  if (!(c > 0.0 && c * ends.curvature < kGuided && line < kComparable * c)) return std::nullopt;
+  double bend = 0.0, twist = 0.0;
+  for (const SurfaceJet* j : {&ends.at_from, &ends.at_to}) {
+    const Xyz n = unit_normal(*j);
+    const Xyz T = (chord - chord.dot(n) * n).normalized();
+    const UvVec t = tangent_components(*j, T), b = tangent_components(*j, n.cross(T));
+    const auto [L, M, N] = second_form(*j);
+    const double along = L * t.u * t.u + 2.0 * M * t.u * t.v + N * t.v * t.v;
+    const double across = L * t.u * b.u + M * (t.u * b.v + t.v * b.u) + N * t.v * b.v;
+    bend += 0.5 * along;
+    twist += (j == &ends.at_from ? 0.75 : 0.25) * along * across;
+  }
+  return Polar{c * (1.0 + bend * bend * c * c / 24.0), angle_of_tangent(ends.at_from, chord) + twist * c * c / 6.0};
+}
+
+Polar guess_from_parameters(const Surface& surface, const Ends& ends) {
+  const UvVec way = ends.to - ends.from;
+  const double middle = push_forward(surface.jet(lerp(ends.from, ends.to, 0.5)), way).norm();
+  const double first = push_forward(ends.at_from, way).norm(), last = push_forward(ends.at_to, way).norm();
+  return {(first + 4.0 * middle + last) / 6.0, angle_of_tangent(ends.at_from, push_forward(ends.at_from, way))};
+}
+
+}  // namespace geovor
