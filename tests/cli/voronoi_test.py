@@ -1,0 +1,104 @@
+"""geovor voronoi: the diagram file, held against laws that every diagram obeys."""
+
+import math
+import unittest
+import xml.etree.ElementTree
+
+from program import ProgramTest, sample
+
+
+def distance(a, b):
+    return math.dist(a["xyz"], b["xyz"])
+
+
+class Voronoi(ProgramTest):
+    def diagram(self, name, *arguments):
+        self.succeed("voronoi", sample(name), "-o", "out.json", *arguments)
+        return self.read_json("out.json")
+
+    def test_the_file_says_what_it_is(self):
+        document = self.diagram("wave.step", "--count", 12)
+        self.assertEqual((document["format"], document["version"]), ("geovor-voronoi", 1))
+        self.assertEqual(document["face"], 1)
+        self.assertEqual(document["unit"], "mm")
+        self.assertEqual(len(document["sites"]), 12)
+        self.assertEqual(len(document["cells"]), 12)
+
+    def test_cells_of_the_wave_add_up_to_the_face(self):
+        document = self.diagram("wave.step", "--count", 12)
+        # Area of the graph of sin u cos v over [-3,3]^2: integral of sqrt(1 + cos^2 u cos^2 v + sin^2 u sin^2 v), by the
+        # midpoint rule, whose error falls with the square of the step.
+        steps = 1000
+        grid = [-3 + 6 * (i + 0.5) / steps for i in range(steps)]
+        squares = [(math.cos(x) ** 2, math.sin(x) ** 2) for x in grid]
+        area = math.fsum(math.sqrt(1 + c1 * c2 + s1 * s2) for c1, s1 in squares for c2, s2 in squares) * (6 / steps) ** 2
+        self.assertAlmostEqual(math.fsum(cell["area"] for cell in document["cells"]) / area, 1, delta=1e-4)
+
+    def test_vertices_are_equally_far_from_their_sites(self):
+        document = self.diagram("wave.step", "--count", 20)
+        self.assertGreater(len(document["vertices"]), 0)
+        for vertex in document["vertices"]:
+            self.assertLess(vertex["residual"], 1e-9)
+
+    def test_straight_distances_bound_the_radius_from_below(self):
+        document = self.diagram("wave.step", "--count", 20)
+        for vertex in document["vertices"]:
+            for site in vertex["sites"]:
+                self.assertGreaterEqual(vertex["radius"] * (1 + 1e-9), distance(vertex, document["sites"][site]))
+
+    def test_every_edge_ends_at_its_vertices(self):
+        document = self.diagram("wave.step", "--count", 20)
+        for edge in document["edges"]:
+            if edge["vertices"] is None:
+                self.assertTrue(edge["closed"])
+                continue
+            for vertex, point in zip(edge["vertices"], (edge["points"][0], edge["points"][-1])):
+                self.assertLess(distance(document["vertices"][vertex], point), 1e-8)
+
+    def test_on_a_cylinders_wall_two_sites_face_each_other_across_two_straight_lines(self):
+        # Sites at opposite sides of the tube, at mid height: the bisector is the two lines halfway round.
+        self.write("sites.csv", "x,y,z\n10,0,15\n-10,0,15\n")
+        document = self.diagram("cylinder_tube.step", "--sites", "sites.csv")
+        edges = [edge for edge in document["edges"] if edge["kind"] == "bisector"]
+        self.assertEqual(len(edges), 2)
+        for edge in edges:
+            self.assertAlmostEqual(edge["length"], 30, delta=1e-6)
+            for point in edge["points"]:
+                self.assertAlmostEqual(point["xyz"][0], 0, delta=1e-6)
+                self.assertAlmostEqual(point["radius"], math.hypot(10 * math.pi / 2, point["xyz"][2] - 15), delta=1e-6)
+
+    def test_sites_in_space_and_in_parameters_give_the_same_diagram(self):
+        self.write("space.csv", f"x,y,z  # a graph: x = u, y = v\n0.5,0.25,{math.sin(0.5) * math.cos(0.25)!r}\n"
+                                f"-1,1,{math.sin(-1) * math.cos(1)!r}\n")
+        self.write("plane.csv", "# the same two\nu,v\n\n0.5,0.25\n-1,1\n")
+        a = self.diagram("wave.step", "--sites", "space.csv")
+        b = self.diagram("wave.step", "--sites", "plane.csv")
+        for p, q in zip(a["sites"], b["sites"]):
+            self.assertLess(distance(p, q), 1e-7)
+        self.assertEqual(len(a["edges"]), len(b["edges"]))
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        arguments = ("voronoi", sample("paraboloid.step"), "--count", 9, "--seed", 4)
+        self.succeed(*arguments, "-o", "a.json", "-o", "a.svg")
+        self.succeed(*arguments, "-o", "b.json", "-o", "b.svg")
+        for ending in ("json", "svg"):
+            self.assertEqual((self.folder / f"a.{ending}").read_bytes(), (self.folder / f"b.{ending}").read_bytes())
+
+    def test_another_seed_gives_other_sites(self):
+        self.assertNotEqual(self.diagram("paraboloid.step", "--count", 9, "--seed", 1)["sites"],
+                            self.diagram("paraboloid.step", "--count", 9, "--seed", 2)["sites"])
+
+    def test_a_face_of_several_is_chosen_by_number_or_name(self):
+        by_number = self.diagram("plate.step", "--face", 3, "--count", 3)
+        by_name = self.diagram("plate.step", "--face", "Face3", "--count", 3)
+        self.assertEqual(by_number, by_name)
+        self.assertEqual(by_number["face"], 3)
+
+    def test_the_picture_is_well_formed(self):
+        self.succeed("voronoi", sample("wave.step"), "--count", 10, "-o", "out.svg")
+        root = xml.etree.ElementTree.parse(self.folder / "out.svg").getroot()
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+
+
+if __name__ == "__main__":
+    unittest.main()
