@@ -14,13 +14,14 @@ namespace geovor {
 /// What the mesh is to be like. The smallest of the rules holds at each place, graded by `gradation`.
 struct MeshOptions {
   double size = 0.0;      ///< the length that an edge is to have, model units; REQUIRES > 0
-  double min_size = 0.0;  ///< no rule asks for less than this; 0: size / 100
+  double min_size = 0.0;  ///< no rule asks for less than this; 0: size / 20
   double deflection = std::numeric_limits<double>::infinity();  ///< largest distance from a triangle to the face
   double angle = 0.26179938779914943;  ///< largest turn of the normal across an edge, radians (15 degrees)
   double gradation = 0.5;              ///< how fast the size may grow with distance: h(x) <= h(y) + gradation * d(x, y)
   std::vector<int> faces;              ///< face numbers to mesh (FaceN's N); empty: all
 
-  /// Runs body(0) … body(n-1), in any order, perhaps at once; the result does not depend on it. Default: one after another.
+  /// Runs body(0) … body(n-1), in any order, perhaps at once; the result does not depend on it. Default: one after
+  /// another.
   std::function<void(int n, const std::function<void(int)>& body)> for_each;
   /// Called after each face with the number done and the number in all; never from two threads at once. Returning false
   /// stops the work: the remaining faces are Stopped.
@@ -43,13 +44,13 @@ struct FaceReport {
   double smallest_angle = 0.0;    ///< degrees
   double largest_distance = 0.0;  ///< from points sampled on the triangles to the face, model units
   double mesh_area = 0.0;
-  double face_area = 0.0;         ///< by quadrature on the surface
-  int estimated_lengths = 0;      ///< edges whose geodesic length was estimated because the shooting did not converge
+  double face_area = 0.0;     ///< by quadrature on the surface
+  int estimated_lengths = 0;  ///< edges whose geodesic length was estimated because the shooting did not converge
   double seconds = 0.0;
 };
 
 struct MeshResult {
-  TriangleMesh mesh;               ///< of the faces that were meshed, in the order of their numbers
+  TriangleMesh mesh;  ///< of the faces that were meshed, in the order of their numbers
   std::vector<FaceReport> faces;
   double seconds_borders = 0.0, seconds_faces = 0.0;
 };

@@ -1,0 +1,241 @@
+#include "delaunay/border.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <queue>
+#include <tuple>
+
+#include "surface/forms.h"
+
+namespace geovor {
+namespace {
+
+// Stations on each analytic piece of an edge, where size and speed are looked at.
+constexpr int kStationsPerPiece = 24;
+// However coarse the rule: a segment turns by no more than this, so that a hole stays a hole.
+constexpr double kLargestTurn = std::numbers::pi / 4;
+
+struct Use {
+  int face;
+  const Coedge* coedge;
+};
+
+// One edge, looked at closely.
+struct Stations {
+  std::vector<double> t;
+  std::vector<double> s;  // arc length from the first
+  std::vector<double> h;
+  double turn = 0.0;  // of the tangent, in all
+};
+
+double curve_curvature(const CurveJet<3>& j) {
+  const double speed = j.d1.norm();
+  const double k = j.d1.cross(j.d2).norm() / (speed * speed * speed);
+  return std::isfinite(k) ? k : 0.0;
+}
+
+double surface_curvature(const CadModel& model, const Use& use, double t) {
+  const Surface* surface = model.faces[use.face].surface.get();
+  if (surface == nullptr) return 0.0;
+  const auto p = use.coedge->pcurve->position(t);
+  const SurfaceJet j = surface->jet({p.x(), p.y()});
+  // Near a pole the forms have lost their digits; the faces around it tell the size there.
+  constexpr double kTrusted = 1e-4;
+  if (j.Su.cross(j.Sv).norm() < kTrusted * j.Su.norm() * j.Sv.norm() || j.Su.norm() < kTrusted * j.Sv.norm() * 1e-3)
+    return 0.0;
+  const double k = curvatures(j).largest();
+  return std::isfinite(k) ? k : 0.0;
+}
+
+class Sampler {
+ public:
+  Sampler(const CadModel& model, const SizeRule& rule, const std::vector<double>& finer)
+      : model_(model), rule_(rule), finer_(finer), uses_(model.edges.size()), stations_(model.edges.size()) {}
+  BorderPoints run();
+
+ private:
+  void collect_uses();
+  void look_at(int edge);
+  void grade();
+  void place(int edge);
+  Xyz position(int edge, double t) const;
+  int vertex_point(int vertex, int edge, double t);
+
+  const CadModel& model_;
+  const SizeRule& rule_;
+  const std::vector<double>& finer_;
+  std::vector<std::vector<Use>> uses_;
+  std::vector<Stations> stations_;
+  std::vector<double> vertex_size_;
+  std::vector<int> point_of_vertex_;
+  BorderPoints result_;
+};
+
+void Sampler::collect_uses() {
+  for (size_t f = 0; f < model_.faces.size(); ++f) {
+    for (const TrimLoop& loop : model_.faces[f].loops) {
+      for (const Coedge& c : loop.coedges) uses_[c.edge].push_back({static_cast<int>(f), &c});
+    }
+  }
+}
+
+void Sampler::look_at(int edge) {
+  const CadEdge& e = model_.edges[edge];
+  Stations& st = stations_[edge];
+  std::vector<double> pieces = {e.range.lo};
+  for (double b : e.curve->breaks(e.range)) pieces.push_back(b);
+  pieces.push_back(e.range.hi);
+  Xyz last_tangent = Xyz::Zero();
+  for (size_t i = 0; i + 1 < pieces.size(); ++i) {
+    for (int k = i == 0 ? 0 : 1; k <= kStationsPerPiece; ++k) {
+      const double t = pieces[i] + (pieces[i + 1] - pieces[i]) * k / kStationsPerPiece;
+      const CurveJet<3> j = e.curve->jet(t);
+      double curvature = curve_curvature(j);
+      for (const Use& use : uses_[edge]) curvature = std::max(curvature, surface_curvature(model_, use, t));
+      const double step = st.t.empty() ? 0.0 : t - st.t.back();
+      const double s = st.t.empty() ? 0.0
+                                    : st.s.back() + step / 6.0 *
+                                                        (e.curve->jet(st.t.back()).d1.norm() +
+                                                         4.0 * e.curve->jet(t - step / 2).d1.norm() + j.d1.norm());
+      const Xyz tangent = j.d1.normalized();
+      if (!st.t.empty()) st.turn += std::atan2(last_tangent.cross(tangent).norm(), last_tangent.dot(tangent));
+      last_tangent = tangent;
+      st.t.push_back(t);
+      st.s.push_back(s);
+      st.h.push_back(rule_.at(curvature) / finer_[edge]);
+    }
+  }
+  // An edge shorter than its size is one segment, and its neighbours must be allowed to be as short.
+  const double length = st.s.back();
+  for (double& h : st.h) h = std::min(h, std::max(length, 1e-3 * rule_.size));
+}
+
+// h(x) <= h(y) + gradation * (distance along the edges): Dijkstra's algorithm with the stations as nodes.
+void Sampler::grade() {
+  vertex_size_.assign(model_.vertices.size(), rule_.size);
+  struct Node {
+    double h;
+    int edge;  // -1: a vertex
+    int index;
+    bool operator>(const Node& o) const { return std::tie(h, edge, index) > std::tie(o.h, o.edge, o.index); }
+  };
+  std::priority_queue<Node, std::vector<Node>, std::greater<>> queue;
+  std::vector<std::vector<std::pair<int, bool>>> at_vertex(model_.vertices.size());
+  for (size_t e = 0; e < stations_.size(); ++e) {
+    for (size_t i = 0; i < stations_[e].t.size(); ++i)
+      queue.push({stations_[e].h[i], static_cast<int>(e), static_cast<int>(i)});
+    if (model_.edges[e].first_vertex >= 0)
+      at_vertex[model_.edges[e].first_vertex].push_back({static_cast<int>(e), true});
+    if (model_.edges[e].last_vertex >= 0)
+      at_vertex[model_.edges[e].last_vertex].push_back({static_cast<int>(e), false});
+  }
+  const auto lower = [&queue](double& h, double bound, int edge, int index) {
+    if (bound < h) {
+      h = bound;
+      queue.push({h, edge, index});
+    }
+  };
+  while (!queue.empty()) {
+    const Node n = queue.top();
+    queue.pop();
+    if (n.edge < 0) {
+      if (n.h > vertex_size_[n.index]) continue;
+      for (const auto& [e, first] : at_vertex[n.index]) {
+        Stations& st = stations_[e];
+        if (st.t.empty()) continue;
+        const int i = first ? 0 : static_cast<int>(st.t.size()) - 1;
+        lower(st.h[i], n.h, e, i);
+      }
+      continue;
+    }
+    Stations& st = stations_[n.edge];
+    if (n.h > st.h[n.index]) continue;
+    const int last = static_cast<int>(st.t.size()) - 1;
+    for (int i : {n.index - 1, n.index + 1}) {
+      if (i < 0 || i > last) continue;
+      lower(st.h[i], n.h + rule_.gradation * std::abs(st.s[i] - st.s[n.index]), n.edge, i);
+    }
+    const CadEdge& e = model_.edges[n.edge];
+    if (n.index == 0 && e.first_vertex >= 0) lower(vertex_size_[e.first_vertex], n.h, -1, e.first_vertex);
+    if (n.index == last && e.last_vertex >= 0) lower(vertex_size_[e.last_vertex], n.h, -1, e.last_vertex);
+  }
+}
+
+// A border that one face alone uses lies on that face; a shared one on the edge's own curve.
+Xyz Sampler::position(int edge, double t) const {
+  const auto& uses = uses_[edge];
+  const bool one_face =
+      !uses.empty() && std::all_of(uses.begin(), uses.end(), [&](const Use& u) { return u.face == uses[0].face; });
+  if (one_face && model_.faces[uses[0].face].surface) {
+    const auto p = uses[0].coedge->pcurve->position(t);
+    return model_.faces[uses[0].face].surface->position({p.x(), p.y()});
+  }
+  return model_.edges[edge].curve->position(t);
+}
+
+int Sampler::vertex_point(int vertex, int edge, double t) {
+  if (vertex >= 0 && point_of_vertex_[vertex] >= 0) return point_of_vertex_[vertex];
+  const bool degenerate = model_.edges[edge].degenerate();
+  result_.points.push_back(degenerate ? model_.vertices[vertex].position : position(edge, t));
+  result_.size.push_back(vertex >= 0 ? vertex_size_[vertex] : rule_.size);
+  const int id = static_cast<int>(result_.points.size()) - 1;
+  if (vertex >= 0) point_of_vertex_[vertex] = id;
+  return id;
+}
+
+void Sampler::place(int edge) {
+  const CadEdge& e = model_.edges[edge];
+  BorderPoints::Edge& out = result_.edges[edge];
+  if (e.degenerate()) return;
+  const Stations& st = stations_[edge];
+  std::vector<double> work(st.t.size(), 0.0);  // the integral of ds / h
+  for (size_t i = 1; i < st.t.size(); ++i) {
+    work[i] = work[i - 1] + (st.s[i] - st.s[i - 1]) * 0.5 * (1.0 / st.h[i - 1] + 1.0 / st.h[i]);
+  }
+  const bool closed = e.first_vertex == e.last_vertex;
+  const int least = std::max(closed ? 3 : 1, static_cast<int>(std::ceil(st.turn / kLargestTurn - 1e-6)));
+  const int n = std::max(least, static_cast<int>(std::lround(work.back())));
+  out.points.push_back(vertex_point(e.first_vertex, edge, e.range.lo));
+  out.t.push_back(e.range.lo);
+  size_t i = 1;
+  for (int k = 1; k < n; ++k) {
+    const double target = work.back() * k / n;
+    while (i + 1 < work.size() && work[i] < target) ++i;
+    const double part = (target - work[i - 1]) / (work[i] - work[i - 1]);
+    const double t = st.t[i - 1] + part * (st.t[i] - st.t[i - 1]);
+    out.t.push_back(t);
+    out.points.push_back(static_cast<int>(result_.points.size()));
+    result_.points.push_back(position(edge, t));
+    result_.size.push_back(st.h[i - 1] + part * (st.h[i] - st.h[i - 1]));
+  }
+  out.points.push_back(closed ? out.points.front() : vertex_point(e.last_vertex, edge, e.range.hi));
+  out.t.push_back(e.range.hi);
+}
+
+BorderPoints Sampler::run() {
+  collect_uses();
+  for (size_t e = 0; e < model_.edges.size(); ++e) {
+    if (!model_.edges[e].degenerate()) look_at(static_cast<int>(e));
+  }
+  grade();
+  result_.edges.resize(model_.edges.size());
+  point_of_vertex_.assign(model_.vertices.size(), -1);
+  for (size_t e = 0; e < model_.edges.size(); ++e) place(static_cast<int>(e));
+  // Poles last: most of them are ends of other edges already.
+  for (size_t e = 0; e < model_.edges.size(); ++e) {
+    const CadEdge& edge = model_.edges[e];
+    if (!edge.degenerate() || edge.first_vertex < 0) continue;
+    result_.edges[e].points = {vertex_point(edge.first_vertex, static_cast<int>(e), 0.0)};
+    result_.edges[e].t = {0.0};
+  }
+  return result_;
+}
+
+}  // namespace
+
+BorderPoints sample_border(const CadModel& model, const SizeRule& rule, const std::vector<double>& finer) {
+  return Sampler(model, rule, finer).run();
+}
+
+}  // namespace geovor

@@ -1,0 +1,95 @@
+#include "delaunay/face_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+#include "delaunay/refine.h"
+#include "delaunay/scaffold.h"
+#include "delaunay/surface_triangulation.h"
+
+namespace geovor {
+namespace {
+
+// The box of the border points, a little larger (border curves bulge between them) but inside the surface's domain.
+UvBox parameter_box(const CadFace& face, const BorderPoints& border) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  constexpr double kBulge = 0.05;
+  UvBox box{{kInf, -kInf}, {kInf, -kInf}};
+  const auto extend = [](Interval& r, double x) { r = {std::min(r.lo, x), std::max(r.hi, x)}; };
+  for (const TrimLoop& loop : face.loops) {
+    for (const Coedge& c : loop.coedges) {
+      std::vector<double> t = border.edges[c.edge].t;
+      t.push_back(c.range.lo);
+      t.push_back(c.range.hi);
+      for (double x : t) {
+        if (!c.range.contains(x)) continue;
+        const auto p = c.pcurve->position(x);
+        extend(box.u, p.x());
+        extend(box.v, p.y());
+      }
+    }
+  }
+  const auto widen = [](Interval r, Interval domain, bool periodic) {
+    const double by = kBulge * r.length();
+    return periodic ? Interval{r.lo - by, r.hi + by}
+                    : Interval{std::max(r.lo - by, domain.lo), std::min(r.hi + by, domain.hi)};
+  };
+  const UvBox domain = face.surface->domain();
+  return {widen(box.u, domain.u, face.surface->u_period().has_value()),
+          widen(box.v, domain.v, face.surface->v_period().has_value())};
+}
+
+void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
+  const HalfEdges& topo = mesh.topology();
+  for (int t = 0; t < topo.triangle_count(); ++t) {
+    const auto [a, b, c] = topo.corners(t);
+    const Xyz &p = mesh.vertex(a).x, &q = mesh.vertex(b).x, &r = mesh.vertex(c).x;
+    const auto foot = mesh.foot((p + q + r) / 3.0, t);
+    if (!foot || foot->n.dot((q - p).cross(r - p)) <= 0.0) ++out.inverted;
+    for (const Xyz& x : {Xyz((p + q + r) / 3.0), Xyz((p + q) / 2.0), Xyz((q + r) / 2.0), Xyz((r + p) / 2.0)}) {
+      if (const auto f = mesh.foot(x, t)) out.largest_distance = std::max(out.largest_distance, (f->x - x).norm());
+    }
+    const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
+    if (longest > 2.0 * std::max({mesh.vertex(a).h, mesh.vertex(b).h, mesh.vertex(c).h})) ++out.too_large;
+  }
+}
+
+}  // namespace
+
+FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRule& rule) {
+  FaceMesh out;
+  const SurfaceProbe probe(*face.surface, parameter_box(face, border));
+  Scaffold scaffold = build_scaffold(face, probe, border, rule);
+  if (!scaffold.ok) {
+    out.why = scaffold.why;
+    return out;
+  }
+  SurfaceTriangulation mesh(std::move(scaffold.triangles), std::move(scaffold.vertices), probe, rule);
+  refine(mesh);
+
+  std::vector<int> id(mesh.vertices().size());
+  for (size_t v = 0; v < id.size(); ++v) {
+    const MeshVertex& vertex = mesh.vertex(static_cast<int>(v));
+    if (vertex.border >= 0) {
+      id[v] = vertex.border;
+    } else if (mesh.topology().outgoing(static_cast<int>(v)) != HalfEdges::kNone) {
+      id[v] = -1 - static_cast<int>(out.inner.size());
+      out.inner.push_back(vertex.x);
+    }
+  }
+  for (int t = 0; t < mesh.topology().triangle_count(); ++t) {
+    const auto [a, b, c] = mesh.topology().corners(t);
+    out.triangles.push_back({id[a], id[b], id[c]});
+  }
+  measure(mesh, out);
+  out.estimated_lengths = mesh.estimates_used();
+  out.ok = true;
+  return out;
+}
+
+std::vector<int> points_to_refine(const CadFace& face, const BorderPoints& border) {
+  return border_faults(face, SurfaceProbe(*face.surface, parameter_box(face, border)), border);
+}
+
+}  // namespace geovor

@@ -1,0 +1,160 @@
+#include "delaunay/refine.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <tuple>
+
+namespace geovor {
+namespace {
+
+// A triangle is too large if its circumradius exceeds this share of the size wanted: with it, and after the
+// smoothing, the median edge has the size wanted (an equilateral triangle has 0.577).
+constexpr double kLargestRadius = 0.72;
+// Two vertices are too close below this share of the size wanted.
+constexpr double kClosest = 0.62;
+constexpr int kRounds = 3;
+constexpr int kSmoothings = 4;
+// A vertex that would move by less than this share of the size stays: the rest is left to the next round.
+constexpr double kSmallMove = 1e-3;
+
+double wanted(const SurfaceTriangulation& m, int t) {
+  const auto [a, b, c] = m.topology().corners(t);
+  return (m.vertex(a).h + m.vertex(b).h + m.vertex(c).h) / 3.0;
+}
+
+// Triangles that are too large, the largest relative to its size first.
+class Worklist {
+ public:
+  explicit Worklist(const SurfaceTriangulation& mesh) : mesh_(mesh) {}
+  void consider(int t) {
+    if (!mesh_.topology().alive(t)) return;
+    const double ratio = mesh_.circumradius(t) / (kLargestRadius * wanted(mesh_, t));
+    if (ratio > 1.0) queue_.push({ratio, t, mesh_.topology().corners(t)});
+  }
+  /// The next triangle that is still as it was when it was considered; kNone at the end.
+  int next() {
+    while (!queue_.empty()) {
+      const Item item = queue_.top();
+      queue_.pop();
+      if (mesh_.topology().alive(item.t) && mesh_.topology().corners(item.t) == item.corners) return item.t;
+    }
+    return HalfEdges::kNone;
+  }
+
+ private:
+  struct Item {
+    double ratio;
+    int t;
+    std::array<int, 3> corners;
+    bool operator<(const Item& o) const { return std::tie(ratio, o.t) < std::tie(o.ratio, t); }
+  };
+  const SurfaceTriangulation& mesh_;
+  std::priority_queue<Item> queue_;
+};
+
+// Whether a point in triangle t stands so close to a fixed edge that only a sliver would fit between.
+bool crowds_border(const SurfaceTriangulation& m, const Xyz& x, int t) {
+  const HalfEdges& topo = m.topology();
+  for (int e = 3 * t; e < 3 * t + 3; ++e) {
+    if (!topo.fixed(e)) continue;
+    const Xyz a = m.vertex(topo.origin(e)).x - x, b = m.vertex(topo.target(e)).x - x;
+    constexpr double kWidestCosine = -0.5;  // the edge is seen under 120 degrees or more
+    if (a.dot(b) < kWidestCosine * a.norm() * b.norm()) return true;
+  }
+  return false;
+}
+
+int insert_voronoi_vertices(SurfaceTriangulation& mesh, int& too_large) {
+  Worklist work(mesh);
+  for (int t = 0; t < mesh.topology().triangle_count(); ++t) work.consider(t);
+  int inserted = 0;
+  too_large = 0;
+  for (int t = work.next(); t != HalfEdges::kNone; t = work.next()) {
+    const Xyz centre = mesh.circumcentre(t);
+    const int below = centre.allFinite() ? mesh.locate(centre, t) : HalfEdges::kNone;
+    const auto vertex = below == HalfEdges::kNone ? std::nullopt : mesh.drop(centre, below);
+    if (!vertex || crowds_border(mesh, vertex->x, below) || !mesh.insert(*vertex, below)) {
+      ++too_large;
+      continue;
+    }
+    ++inserted;
+    const HalfEdges& topo = mesh.topology();
+    for (int e : topo.star(topo.vertex_count() - 1)) {
+      work.consider(e / 3);
+      if (topo.twin(HalfEdges::next(e)) != HalfEdges::kNone) work.consider(topo.twin(HalfEdges::next(e)) / 3);
+    }
+  }
+  return inserted;
+}
+
+int thin_out(SurfaceTriangulation& mesh) {
+  const HalfEdges& topo = mesh.topology();
+  struct Short {
+    double ratio;
+    int e, u, w;
+  };
+  std::vector<Short> shorts;
+  for (int e = 0; e < 3 * topo.triangle_count(); ++e) {
+    if (!topo.alive(e / 3) || topo.twin(e) == HalfEdges::kNone) continue;
+    const int u = topo.origin(e), w = topo.target(e);
+    if (mesh.vertex(u).border >= 0) continue;
+    const double ratio =
+        (mesh.vertex(u).x - mesh.vertex(w).x).norm() / (kClosest * 0.5 * (mesh.vertex(u).h + mesh.vertex(w).h));
+    if (ratio < 1.0) shorts.push_back({ratio, e, u, w});
+  }
+  std::sort(shorts.begin(), shorts.end(),
+            [](const Short& a, const Short& b) { return std::tie(a.ratio, a.e) < std::tie(b.ratio, b.e); });
+  int removed = 0;
+  for (const Short& s : shorts) {
+    if (topo.outgoing(s.u) == HalfEdges::kNone || topo.outgoing(s.w) == HalfEdges::kNone) continue;
+    const int e = topo.find(s.u, s.w);
+    if (e != HalfEdges::kNone && mesh.collapse(e)) ++removed;
+  }
+  return removed;
+}
+
+// The centroid of the star, its triangles weighted by the vertices that they should hold: area / h^2.
+void smooth(SurfaceTriangulation& mesh) {
+  const HalfEdges& topo = mesh.topology();
+  for (int v = 0; v < topo.vertex_count(); ++v) {
+    if (topo.outgoing(v) == HalfEdges::kNone || mesh.vertex(v).border >= 0) continue;
+    Xyz sum = Xyz::Zero();
+    double weight = 0.0;
+    for (int e : topo.star(v)) {
+      const Xyz &a = mesh.vertex(topo.target(e)).x, &b = mesh.vertex(topo.apex(e)).x, &x = mesh.vertex(v).x;
+      const double h = wanted(mesh, e / 3);
+      const double w = (a - x).cross(b - x).norm() / (h * h);
+      sum += w * (a + b + x) / 3.0;
+      weight += w;
+    }
+    if (!(weight > 0.0)) continue;
+    const Xyz target = sum / weight;
+    if ((target - mesh.vertex(v).x).norm() < kSmallMove * mesh.vertex(v).h) continue;
+    const int below = mesh.locate(target, topo.outgoing(v) / 3);
+    if (below == HalfEdges::kNone) continue;
+    if (const auto to = mesh.drop(target, below)) mesh.move(v, *to);
+  }
+  mesh.flip_all();
+}
+
+}  // namespace
+
+RefineResult refine(SurfaceTriangulation& mesh) {
+  RefineResult result;
+  mesh.flip_all();
+  for (int round = 0; round < kRounds; ++round) {
+    int removed = 0;
+    do {
+      removed = thin_out(mesh);
+      result.removed += removed;
+    } while (removed > 0);
+    result.inserted += insert_voronoi_vertices(mesh, result.too_large);
+    for (int i = 0; i < kSmoothings; ++i) smooth(mesh);
+  }
+  mesh.compact();
+  return result;
+}
+
+}  // namespace geovor

@@ -1,0 +1,251 @@
+#include "delaunay/scaffold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <queue>
+#include <tuple>
+
+#include "delaunay/polygon_triangulation.h"
+
+namespace geovor {
+namespace {
+
+// An edge may be this much longer than the size wanted before it is halved: the halves are then not much too short.
+constexpr double kSlack = 1.3;
+// However coarse the rule: no edge turns the normal by more than this, or orientation could not be told from normals.
+constexpr double kLargestTurn = std::numbers::pi / 5;
+// Pieces into which an edge's image on the surface is cut to measure its length.
+constexpr int kPieces = 4;
+// A face that wants more vertices than this is asking for a mistake in the units.
+constexpr int kMostVertices = 4'000'000;
+
+struct PlaneVertex {
+  Uv uv;
+  Xyz x, n;
+  double curvature = 0.0;
+  double h = 0.0;
+  int border = -1;
+};
+
+class Builder {
+ public:
+  Builder(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border, const SizeRule& rule)
+      : face_(face), probe_(probe), border_(border), rule_(rule) {}
+  Scaffold run();
+  std::vector<int> faults();
+
+ private:
+  struct Candidate {
+    double ratio;
+    int edge, a, b;
+    bool operator<(const Candidate& o) const { return std::tie(ratio, o.a, o.b) < std::tie(o.ratio, a, b); }
+  };
+
+  void collect_border();
+  bool triangulate();
+  void halve_edges();
+  void consider(int edge);
+  PlaneVertex make_vertex(Uv uv, double h_bound) const;
+  double image_length(Uv a, Uv b) const;
+  Scaffold sew() const;
+
+  const CadFace& face_;
+  const SurfaceProbe& probe_;
+  const BorderPoints& border_;
+  const SizeRule& rule_;
+  std::vector<std::vector<Uv>> loops_;
+  std::vector<PlaneVertex> vertices_;
+  HalfEdges mesh_;
+  std::priority_queue<Candidate> queue_;
+  Scaffold result_;
+};
+
+PlaneVertex Builder::make_vertex(Uv uv, double h_bound) const {
+  const SurfaceSample s = probe_.at(uv);
+  PlaneVertex v{uv, s.x, s.n, s.curvature, 0.0, -1};
+  v.h = std::min(rule_.at(s.curvature), h_bound);
+  return v;
+}
+
+void Builder::collect_border() {
+  for (const TrimLoop& loop : face_.loops) {
+    std::vector<Uv> polygon;
+    for (const Coedge& c : loop.coedges) {
+      const BorderPoints::Edge& e = border_.edges[c.edge];
+      std::vector<int> points = e.points;
+      std::vector<double> t = e.t;
+      if (points.size() < 2) {  // a pole: both ends of its p-curve are the same point
+        if (points.empty()) continue;
+        points = {points[0], points[0]};
+        t = {c.range.lo, c.range.hi};
+      }
+      if (c.reversed) {
+        std::reverse(points.begin(), points.end());
+        std::reverse(t.begin(), t.end());
+      }
+      for (size_t i = 0; i + 1 < t.size(); ++i) {
+        const auto p = c.pcurve->position(t[i]);
+        const Uv uv{p.x(), p.y()};
+        if (!polygon.empty() && polygon.back() == uv) continue;
+        polygon.push_back(uv);
+        PlaneVertex v = make_vertex(uv, border_.size[points[i]]);
+        v.h = border_.size[points[i]];
+        v.x = border_.points[points[i]];
+        v.border = points[i];
+        vertices_.push_back(v);
+      }
+    }
+    loops_.push_back(polygon);
+  }
+}
+
+bool Builder::triangulate() {
+  UvBox box = probe_.box();
+  const double aspect = probe_.v_speed() * box.v.length() / (probe_.u_speed() * box.u.length());
+  PolygonTriangulation flat = triangulate_polygon(loops_, std::isfinite(aspect) && aspect > 0.0 ? aspect : 1.0);
+  if (!flat.ok) {
+    result_.why = flat.why;
+    for (int p : flat.bad_points) result_.bad_points.push_back(vertices_[p].border);
+    return false;
+  }
+  mesh_ = std::move(flat.triangles);
+  return true;
+}
+
+double Builder::image_length(Uv a, Uv b) const {
+  double sum = 0.0;
+  Xyz last = probe_.position(a);
+  for (int i = 1; i <= kPieces; ++i) {
+    const Xyz x = probe_.position(lerp(a, b, static_cast<double>(i) / kPieces));
+    sum += (x - last).norm();
+    last = x;
+  }
+  return sum;
+}
+
+void Builder::consider(int edge) {
+  if (mesh_.twin(edge) == HalfEdges::kNone) return;
+  const PlaneVertex &a = vertices_[mesh_.origin(edge)], &b = vertices_[mesh_.target(edge)];
+  const double length = image_length(a.uv, b.uv);
+  const double h = std::min({a.h, b.h, rule_.size});
+  const Xyz middle = probe_.at(lerp(a.uv, b.uv, 0.5)).n;
+  const double cosine = std::min(
+      {a.n.dot(b.n), 2.0 * a.n.dot(middle) * a.n.dot(middle) - 1.0, 2.0 * b.n.dot(middle) * b.n.dot(middle) - 1.0});
+  const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
+  // The smallest length that is worth halving: below it a turning normal means a crease, not curvature.
+  const double floor = 0.05 * std::min(rule_.size, std::max(rule_.min_size, 1e-3 * rule_.size));
+  double ratio = length / (kSlack * h);
+  if (length > floor) ratio = std::max(ratio, turn / kLargestTurn);
+  if (ratio > 1.0) queue_.push({ratio, edge, mesh_.origin(edge), mesh_.target(edge)});
+}
+
+void Builder::halve_edges() {
+  for (int e = 0; e < 3 * mesh_.triangle_count(); ++e) {
+    if (e < mesh_.twin(e)) consider(e);
+  }
+  while (!queue_.empty()) {
+    const Candidate c = queue_.top();
+    queue_.pop();
+    if (mesh_.origin(c.edge) != c.a || mesh_.target(c.edge) != c.b) continue;
+    if (mesh_.vertex_count() >= kMostVertices) {
+      result_.why = "it wants more than " + std::to_string(kMostVertices) + " vertices";
+      return;
+    }
+    const PlaneVertex &a = vertices_[c.a], &b = vertices_[c.b];
+    const double bound = std::max(a.h, b.h) + rule_.gradation * 0.5 * image_length(a.uv, b.uv);
+    PlaneVertex middle = make_vertex(lerp(a.uv, b.uv, 0.5), bound);
+    const int v = mesh_.add_vertex();
+    vertices_.push_back(middle);
+    mesh_.split_edge(c.edge, v);
+    for (int e : mesh_.star(v)) {
+      consider(e);
+    }
+  }
+}
+
+// Border points become one vertex each, whatever number of times the loops pass them; triangles that lie in a pole
+// vanish.
+Scaffold Builder::sew() const {
+  Scaffold out;
+  std::vector<int> id(vertices_.size(), -1);
+  std::map<int, int> of_border;
+  for (size_t i = 0; i < vertices_.size(); ++i) {
+    const PlaneVertex& p = vertices_[i];
+    const auto known = p.border >= 0 ? of_border.find(p.border) : of_border.end();
+    if (known != of_border.end()) {
+      id[i] = known->second;
+      MeshVertex& v = out.vertices[id[i]];
+      v.uv.push_back(p.uv);
+      v.n = (v.n + p.n).normalized();
+      continue;
+    }
+    id[i] = static_cast<int>(out.vertices.size());
+    if (p.border >= 0) of_border[p.border] = id[i];
+    out.vertices.push_back({p.x, p.n, p.h, p.border, {p.uv}, false, false});
+  }
+  for (const TrimLoop& loop : face_.loops) {
+    for (const Coedge& c : loop.coedges) {
+      const BorderPoints::Edge& e = border_.edges[c.edge];
+      if (e.points.size() != 1) continue;
+      const auto a = c.pcurve->position(c.range.lo), b = c.pcurve->position(c.range.hi);
+      MeshVertex& v = out.vertices[of_border.at(e.points[0])];
+      (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) ? v.free_u : v.free_v) = true;
+    }
+  }
+  std::vector<std::array<int, 3>> triangles;
+  for (int t = 0; t < mesh_.triangle_count(); ++t) {
+    auto [a, b, c] = mesh_.corners(t);
+    a = id[a], b = id[b], c = id[c];
+    if (a != b && b != c && c != a) triangles.push_back({a, b, c});
+  }
+  out.triangles = HalfEdges(static_cast<int>(out.vertices.size()), triangles);
+  for (const TrimLoop& loop : face_.loops) {
+    for (const Coedge& c : loop.coedges) {
+      const auto& points = border_.edges[c.edge].points;
+      for (size_t i = 0; i + 1 < points.size(); ++i) {
+        const int a = of_border.at(points[i]), b = of_border.at(points[i + 1]);
+        for (int e : {out.triangles.find(a, b), out.triangles.find(b, a)}) {
+          if (e != HalfEdges::kNone) out.triangles.set_fixed(e);
+        }
+      }
+    }
+  }
+  for (int e = 0; e < 3 * out.triangles.triangle_count(); ++e) {
+    if (out.triangles.twin(e) != HalfEdges::kNone) continue;
+    const int a = out.vertices[out.triangles.origin(e)].border, b = out.vertices[out.triangles.target(e)].border;
+    if (a >= 0 && b >= 0) continue;
+    out.why = "its seam or pole can't be closed";
+    return out;
+  }
+  out.ok = true;
+  return out;
+}
+
+std::vector<int> Builder::faults() {
+  collect_border();
+  return triangulate() ? std::vector<int>{} : result_.bad_points;
+}
+
+Scaffold Builder::run() {
+  collect_border();
+  if (!triangulate()) return result_;
+  halve_edges();
+  if (!result_.why.empty()) return result_;
+  return sew();
+}
+
+}  // namespace
+
+Scaffold build_scaffold(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border,
+                        const SizeRule& rule) {
+  return Builder(face, probe, border, rule).run();
+}
+
+std::vector<int> border_faults(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border) {
+  const SizeRule rule;
+  return Builder(face, probe, border, rule).faults();
+}
+
+}  // namespace geovor

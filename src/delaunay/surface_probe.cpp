@@ -1,0 +1,54 @@
+#include "delaunay/surface_probe.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "surface/forms.h"
+
+namespace geovor {
+namespace {
+
+// Below this share of its mean length a derivative counts as zero: rounding has eaten the digits of the normal.
+constexpr double kVanishing = 1e-7;
+// Below this sine the two derivatives count as parallel.
+constexpr double kParallel = 1e-9;
+
+}  // namespace
+
+SurfaceProbe::SurfaceProbe(const Surface& surface, const UvBox& box) : surface_(surface), box_(box) {
+  constexpr int kGrid = 7;
+  double su = 0.0, sv = 0.0;
+  for (int i = 0; i < kGrid; ++i) {
+    for (int k = 0; k < kGrid; ++k) {
+      const SurfaceJet j =
+          surface.jet({box.u.lo + (i + 0.5) / kGrid * box.u.length(), box.v.lo + (k + 0.5) / kGrid * box.v.length()});
+      su += j.Su.norm();
+      sv += j.Sv.norm();
+    }
+  }
+  u_speed_ = su / (kGrid * kGrid);
+  v_speed_ = sv / (kGrid * kGrid);
+}
+
+bool SurfaceProbe::regular(const SurfaceJet& j) const {
+  const double a = j.Su.norm(), b = j.Sv.norm();
+  return a > kVanishing * u_speed_ && b > kVanishing * v_speed_ && j.Su.cross(j.Sv).norm() > kParallel * a * b;
+}
+
+SurfaceSample SurfaceProbe::at(Uv p) const {
+  SurfaceJet j = surface_.jet(p);
+  SurfaceSample s;
+  s.x = j.S;
+  s.regular = regular(j);
+  // The limit of normal and curvature: ever larger steps towards the middle, until the derivatives come back.
+  for (double step = 1e-6; !regular(j) && step < 0.5; step *= 10.0) {
+    j = surface_.jet(lerp(p, {box_.u.middle(), box_.v.middle()}, step));
+  }
+  s.n = unit_normal(j);
+  if (!s.n.allFinite()) s.n = Xyz::Zero();
+  const double k = curvatures(j).largest();
+  s.curvature = std::isfinite(k) ? k : 0.0;
+  return s;
+}
+
+}  // namespace geovor

@@ -1,0 +1,283 @@
+#include "delaunay/surface_triangulation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geodesic/connect.h"
+#include "surface/forms.h"
+#include "surface/project.h"
+
+namespace geovor {
+namespace {
+
+// A triangle is upright if its normal makes less than about 78 degrees with the mean of its corners' normals.
+constexpr double kUprightCosine = 0.2;
+// Where the estimated cotangents leave the sign of their sum open: lengths that are wrong by the fifth order of a 15
+// degree turn move it by less than this.
+constexpr double kDoubt = 0.02;
+// Two diagonals whose cotangents differ by less are equally good; the one that is there stays.
+constexpr double kTie = 1e-9;
+// A point this near to an edge, in parts of the triangle, is put on the edge.
+constexpr double kOnEdge = 0.02;
+// The geodesic must agree with the estimate this well, or it is another geodesic.
+constexpr double kAgreement = 0.1;
+constexpr double kLengthTolerance = 1e-10;
+
+Xyz normal_of(const Xyz& a, const Xyz& b, const Xyz& c) { return (b - a).cross(c - a); }
+
+// cot of the angle between the sides p and q of a triangle with third side r; Heron's formula in Kahan's stable order.
+double cotangent(double p, double q, double r) {
+  std::array<double, 3> s = {p, q, r};
+  std::sort(s.begin(), s.end(), std::greater<>());
+  const double product =
+      (s[0] + (s[1] + s[2])) * (s[2] - (s[0] - s[1])) * (s[2] + (s[0] - s[1])) * (s[0] + (s[1] - s[2]));
+  const double area4 = std::sqrt(std::max(product, 0.0));
+  const double numerator = p * p + q * q - r * r;
+  return numerator / std::max(area4, 1e-12 * (p * p + q * q));
+}
+
+}  // namespace
+
+SurfaceTriangulation::SurfaceTriangulation(HalfEdges triangles, std::vector<MeshVertex> vertices,
+                                           const SurfaceProbe& probe, const SizeRule& rule)
+    : mesh_(std::move(triangles)), vertices_(std::move(vertices)), probe_(probe), rule_(rule) {}
+
+double SurfaceTriangulation::estimated_length(int a, int b) const {
+  const Xyz chord = vertices_[b].x - vertices_[a].x;
+  const double c = chord.norm();
+  if (c == 0.0) return 0.0;
+  // Slopes of the curve against the chord at both ends; int sqrt(1 + y'^2) for the cubic with these slopes.
+  const double alpha = std::asin(std::clamp(vertices_[a].n.dot(chord) / c, -1.0, 1.0));
+  const double beta = -std::asin(std::clamp(vertices_[b].n.dot(chord) / c, -1.0, 1.0));
+  return c * (1.0 + (2.0 * alpha * alpha + 2.0 * beta * beta + alpha * beta) / 30.0);
+}
+
+double SurfaceTriangulation::geodesic_length(int a, int b) const {
+  const double estimate = estimated_length(a, b);
+  if (!vertices_[a].regular()) std::swap(a, b);
+  const MeshVertex &from = vertices_[a], &to = vertices_[b];
+  if (from.regular() && estimate > 0.0) {
+    const SurfaceJet j = probe_.surface().jet(from.uv[0]);
+    const UvVec d = tangent_components(j, to.x - from.x);
+    const Polar guess{estimate, angle_of_direction(first_form(j), d)};
+    ConnectOptions options;
+    options.tolerance = kLengthTolerance;
+    const Uv target = parameters_near(to, probe_.surface(), from.uv[0], weight());
+    const Connection c = connect(probe_.surface(), from.uv[0], target, guess, options);
+    if (c.status == ConnectStatus::Converged && std::abs(c.length - estimate) < kAgreement * estimate) return c.length;
+  }
+  ++estimates_used_;
+  return estimate;
+}
+
+bool SurfaceTriangulation::upright(const MeshVertex& a, const MeshVertex& b, const MeshVertex& c) const {
+  const Xyz n = normal_of(a.x, b.x, c.x);
+  const Xyz m = a.n + b.n + c.n;
+  return n.dot(m) > kUprightCosine * n.norm() * m.norm();
+}
+
+bool SurfaceTriangulation::upright(int t) const {
+  const auto [a, b, c] = mesh_.corners(t);
+  return upright(vertices_[a], vertices_[b], vertices_[c]);
+}
+
+double SurfaceTriangulation::circumradius(int t) const {
+  const auto [a, b, c] = mesh_.corners(t);
+  const Xyz &p = vertices_[a].x, &q = vertices_[b].x, &r = vertices_[c].x;
+  return (q - p).norm() * (r - q).norm() * (p - r).norm() / (2.0 * normal_of(p, q, r).norm());
+}
+
+Xyz SurfaceTriangulation::circumcentre(int t) const {
+  const auto [a, b, c] = mesh_.corners(t);
+  const Xyz p = vertices_[b].x - vertices_[a].x, q = vertices_[c].x - vertices_[a].x;
+  const Xyz n = p.cross(q);
+  return vertices_[a].x + (p.squaredNorm() * q.cross(n) + q.squaredNorm() * n.cross(p)) / (2.0 * n.squaredNorm());
+}
+
+double SurfaceTriangulation::cotangent_sum(const Lengths& l) const {
+  return cotangent(l.bc, l.ca, l.ab) + cotangent(l.ad, l.db, l.ab);
+}
+
+bool SurfaceTriangulation::is_delaunay(int e) const {
+  if (mesh_.fixed(e)) return true;
+  const int a = mesh_.origin(e), b = mesh_.target(e), c = mesh_.apex(e), d = mesh_.apex(mesh_.twin(e));
+  const auto measure = [&](auto&& length) {
+    return cotangent_sum({length(a, b), length(b, c), length(c, a), length(a, d), length(d, b)});
+  };
+  const double estimate = measure([this](int p, int q) { return estimated_length(p, q); });
+  if (std::abs(estimate) > kDoubt) return estimate > 0.0;
+  return measure([this](int p, int q) { return geodesic_length(p, q); }) >= -kTie;
+}
+
+bool SurfaceTriangulation::flip_allowed(int e) const {
+  if (mesh_.fixed(e)) return false;
+  const int a = mesh_.origin(e), b = mesh_.target(e), c = mesh_.apex(e), d = mesh_.apex(mesh_.twin(e));
+  if (c == d || mesh_.find(c, d) != HalfEdges::kNone || mesh_.find(d, c) != HalfEdges::kNone) return false;
+  return upright(vertices_[d], vertices_[c], vertices_[a]) && upright(vertices_[c], vertices_[d], vertices_[b]);
+}
+
+void SurfaceTriangulation::flip_to_delaunay(std::vector<int> edges) {
+  // Every flip lowers the Dirichlet energy, so this ends; the bound is for the rounding of nearly equal diagonals.
+  long budget = 20L * static_cast<long>(edges.size()) + 1000;
+  while (!edges.empty() && budget-- > 0) {
+    const int e = edges.back();
+    edges.pop_back();
+    if (!mesh_.alive(e / 3) || is_delaunay(e) || !flip_allowed(e)) continue;
+    const int f = mesh_.twin(e);
+    mesh_.flip(e);
+    for (int x : {HalfEdges::next(e), HalfEdges::prev(e), HalfEdges::next(f), HalfEdges::prev(f)}) edges.push_back(x);
+  }
+}
+
+void SurfaceTriangulation::flip_all() {
+  std::vector<int> edges;
+  for (int e = 3 * mesh_.triangle_count() - 1; e >= 0; --e) {
+    if (mesh_.alive(e / 3) && e < mesh_.twin(e)) edges.push_back(e);
+  }
+  flip_to_delaunay(std::move(edges));
+}
+
+int SurfaceTriangulation::locate(const Xyz& point, int t) const {
+  constexpr int kMostSteps = 200;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const auto [a, b, c] = mesh_.corners(t);
+    const Xyz n = normal_of(vertices_[a].x, vertices_[b].x, vertices_[c].x);
+    int go = HalfEdges::kNone;
+    double worst = 0.0;
+    for (int e = 3 * t; e < 3 * t + 3; ++e) {
+      const double side = normal_of(vertices_[mesh_.origin(e)].x, vertices_[mesh_.target(e)].x, point).dot(n);
+      if (side < worst) {
+        worst = side;
+        go = e;
+      }
+    }
+    if (go == HalfEdges::kNone) return t;
+    if (mesh_.fixed(go)) return HalfEdges::kNone;
+    t = mesh_.twin(go) / 3;
+  }
+  return HalfEdges::kNone;
+}
+
+// The mean of the corners' parameters. Where no corner has its parameters to itself every copy of the first is tried.
+Uv SurfaceTriangulation::reference_parameters(int t, const Xyz& point) const {
+  const auto corners = mesh_.corners(t);
+  const auto mean_about = [&](Uv reference) {
+    UvVec sum;
+    for (int v : corners)
+      sum = sum + (parameters_near(vertices_[v], probe_.surface(), reference, weight()) - reference);
+    return reference + (1.0 / 3.0) * sum;
+  };
+  for (int v : corners) {
+    if (vertices_[v].regular()) return mean_about(vertices_[v].uv[0]);
+  }
+  Uv best = vertices_[corners[0]].uv[0];
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (int v : corners) {
+    for (Uv copy : vertices_[v].uv) {
+      const Uv mean = mean_about(copy);
+      const double d = (probe_.position(mean) - point).norm();
+      if (d < best_distance) {
+        best_distance = d;
+        best = mean;
+      }
+    }
+  }
+  return best;
+}
+
+std::optional<MeshVertex> SurfaceTriangulation::drop(const Xyz& point, int t) const {
+  const Uv guess = reference_parameters(t, point);
+  const Projection foot = project_near(probe_.surface(), point, guess, probe_.box());
+  const double reach = 0.5 * circumradius(t);
+  Uv uv = foot.uv;
+  if (!foot.converged || !(foot.distance < reach)) {
+    uv = guess;
+    if (!((probe_.position(guess) - point).norm() < reach)) return std::nullopt;
+  }
+  const SurfaceSample s = probe_.at(uv);
+  if (!s.x.allFinite()) return std::nullopt;
+  MeshVertex v{s.x, s.n, rule_.at(s.curvature), -1, {uv}, false, false};
+  double bound = std::numeric_limits<double>::infinity();
+  for (int c : mesh_.corners(t))
+    bound = std::min(bound, vertices_[c].h + rule_.gradation * (vertices_[c].x - s.x).norm());
+  v.h = std::min(v.h, bound);
+  return v;
+}
+
+std::optional<SurfaceSample> SurfaceTriangulation::foot(const Xyz& point, int t) const {
+  const Projection p = project_near(probe_.surface(), point, reference_parameters(t, point), probe_.box());
+  if (!p.foot.allFinite()) return std::nullopt;
+  return probe_.at(p.uv);
+}
+
+bool SurfaceTriangulation::insert(const MeshVertex& vertex, int t) {
+  const auto corners = mesh_.corners(t);
+  const Xyz n = normal_of(vertices_[corners[0]].x, vertices_[corners[1]].x, vertices_[corners[2]].x);
+  int on_edge = HalfEdges::kNone;
+  double least = kOnEdge;
+  for (int e = 3 * t; e < 3 * t + 3; ++e) {
+    const double part =
+        normal_of(vertices_[mesh_.origin(e)].x, vertices_[mesh_.target(e)].x, vertex.x).dot(n) / n.squaredNorm();
+    if (part < least) {
+      least = part;
+      on_edge = e;
+    }
+  }
+  const auto makes_upright = [&](int e) {
+    return upright(vertices_[mesh_.origin(e)], vertices_[mesh_.target(e)], vertex);
+  };
+  std::vector<int> outer;
+  if (on_edge == HalfEdges::kNone) {
+    outer = {3 * t, 3 * t + 1, 3 * t + 2};
+  } else {
+    if (mesh_.fixed(on_edge)) return false;
+    const int f = mesh_.twin(on_edge);
+    outer = {HalfEdges::next(on_edge), HalfEdges::prev(on_edge), HalfEdges::next(f), HalfEdges::prev(f)};
+  }
+  if (!std::all_of(outer.begin(), outer.end(), makes_upright)) return false;
+  const int v = mesh_.add_vertex();
+  vertices_.push_back(vertex);
+  if (on_edge == HalfEdges::kNone) {
+    mesh_.split_triangle(t, v);
+  } else {
+    mesh_.split_edge(on_edge, v);
+  }
+  std::vector<int> edges;
+  for (int e : mesh_.star(v)) {
+    edges.push_back(HalfEdges::next(e));
+    edges.push_back(e);
+  }
+  flip_to_delaunay(std::move(edges));
+  return true;
+}
+
+bool SurfaceTriangulation::collapse(int e) {
+  if (!mesh_.can_collapse(e)) return false;
+  const int u = mesh_.origin(e), w = mesh_.target(e);
+  for (int f : mesh_.star(u)) {
+    if (mesh_.target(f) != w && mesh_.apex(f) != w &&
+        !upright(vertices_[mesh_.target(f)], vertices_[mesh_.apex(f)], vertices_[w])) {
+      return false;
+    }
+  }
+  mesh_.collapse(e);
+  std::vector<int> edges;
+  for (int f : mesh_.star(w)) {
+    edges.push_back(f);
+    edges.push_back(HalfEdges::next(f));
+  }
+  flip_to_delaunay(std::move(edges));
+  return true;
+}
+
+bool SurfaceTriangulation::move(int v, const MeshVertex& to) {
+  for (int e : mesh_.star(v)) {
+    if (!upright(vertices_[mesh_.target(e)], vertices_[mesh_.apex(e)], to)) return false;
+  }
+  vertices_[v] = to;
+  return true;
+}
+
+}  // namespace geovor
