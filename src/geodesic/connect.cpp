@@ -1,7 +1,7 @@
 #include "geodesic/connect.h"
 
 #include "geodesic/closed_forms.h"
-#include "geodesic/shooting.h"
+#include "geodesic/relax.h"
 
 namespace geovor {
 namespace {
@@ -14,6 +14,14 @@ Connection zero_length(const SurfaceJet& j, double angle) {
   c.angle = angle;
   c.start_direction = c.end_direction = tangent_components(j, tangent_at_angle(j, angle));
   return c;
+}
+
+// Several points, because the length of the line in space is measured along them.
+std::vector<Uv> straight_line(Uv from, Uv to) {
+  constexpr int kPieces = 8;
+  std::vector<Uv> line;
+  for (int i = 0; i <= kPieces; ++i) line.push_back(lerp(from, to, double(i) / kPieces));
+  return line;
 }
 
 bool regular(const SurfaceJet& j) { return unit_normal(j).allFinite(); }
@@ -45,7 +53,9 @@ Connection connect(const Surface& surface, Uv from, Uv to, std::optional<Polar> 
   if (!guess) {
     if (const auto near = guess_from_chord(ends); near && attempt(*near)) return c;
   }
-  attempt(guess_from_parameters(surface, ends));
+  if (attempt(guess_from_parameters(surface, ends))) return c;
+  c = connect_along(surface, ends, straight_line(from, to), options);
+  c.evaluations += spent;
   return c;
 }
 

@@ -9,7 +9,8 @@ namespace geovor {
 
 struct DistanceOptions {
   ConnectOptions connect;
-  /// Cells of the coarse grid, in each direction, whose graph path is a second start beside the straight line.
+  /// Cells of the coarse grid, in each direction, whose graph path is a second start beside the straight line; zero:
+  /// none.
   int grid = 24;
 };
 

@@ -20,7 +20,7 @@ constexpr double kGrow = 5.0;
 
 // DOP853's estimate is the difference between solutions of lower order and overstates the error of the one that is
 // kept; the tests measure that the end still meets the tolerance.
-constexpr double kEstimateOverError = 100.0;
+constexpr double kEstimateOverError = 10.0;
 
 // The first step, in radii of curvature, is this times tolerance^(1/8): where the estimate meets the tolerance on a
 // sphere.
@@ -123,7 +123,7 @@ TraceStatus GeodesicIntegrator::advance(double s) {
 // Errors in position and y are measured against the step's share of the length, those in the derivatives against the
 // share of the turn that carries over the whole length.
 double GeodesicIntegrator::error_of(const GeodesicVector& e, double h) const {
-  const double share = h * options_.tolerance * kEstimateOverError;
+  const double share = std::sqrt(h * length_) * options_.tolerance * kEstimateOverError;
   const double place = norm(metric_, {e[0], e[1]}), turn = norm(metric_, {e[2], e[3]});
   return std::max(place + std::abs(e[4]), length_ * (turn + std::abs(e[5]))) / share;
 }
