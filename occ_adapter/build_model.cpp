@@ -1,7 +1,5 @@
 // From a prepared shape to the model: indices for what is shared, loops, shells, box, problems.
-#include <BRepBndLib.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -46,13 +44,11 @@ class ModelBuilder {
 
  private:
   void find_box() {
-    Bnd_Box box;
-    BRepBndLib::AddOptimal(prepared_.shape, box, false, false);
+    const Bnd_Box box = bounding_box(prepared_.shape);
     if (box.IsVoid() || box.IsOpen()) {
       model_.warnings.push_back("the shape has no finite bounding box");
       return;
     }
-    box.SetGap(0.0);
     model_.lower = to_xyz(box.CornerMin());
     model_.upper = to_xyz(box.CornerMax());
   }

@@ -2,6 +2,7 @@
 // from another room.
 #pragma once
 
+#include <Bnd_Box.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
@@ -132,6 +133,9 @@ std::vector<std::string> check_face(const TopoDS_Face& face);
 
 /// The distinct parts of a kind, in the order that numbers them.
 std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind);
+
+/// The box of the faces, without tolerances. Void or open where there is no finite one.
+Bnd_Box bounding_box(const TopoDS_Shape& shape);
 
 /// The model of a loaded file.
 CadModel build_model(const LoadedShape& loaded);
