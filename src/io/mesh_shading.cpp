@@ -42,10 +42,10 @@ LinearColour face_tint(int number) {
 }
 
 LinearColour lit(const LinearColour& tint, const Xyz& normal, const PictureProjection& view) {
-  const Xyz key = direction(view, -0.45, 0.75, 0.70), fill = direction(view, 0.9, 0.1, 0.45);
+  const Xyz key = direction(view, -0.55, 0.55, 0.80), fill = direction(view, 0.9, 0.1, 0.45);
   const double sky = 0.5 + 0.5 * normal.z();
   const double diffuse =
-      0.16 + 0.16 * sky + 0.62 * std::max(0.0, normal.dot(key)) + 0.20 * std::max(0.0, normal.dot(fill));
+      0.20 + 0.14 * sky + 0.64 * std::max(0.0, normal.dot(key)) + 0.20 * std::max(0.0, normal.dot(fill));
   constexpr double kGloss = 0.10, kGlossPower = 24.0;
   const Xyz half = (key + view.towards_viewer()).normalized();
   const double gloss = kGloss * std::pow(std::max(0.0, normal.dot(half)), kGlossPower);
