@@ -17,6 +17,9 @@ constexpr double kAccept = 1e4;
 
 constexpr int kMaxSteps = 60;
 
+// How often an iteration may run into a pole and leave it on a better meridian; one is usual.
+constexpr int kPoles = 8;
+
 // The state of the minimization of f = |S(u,v) - P|^2 / 2 at one parameter.
 struct Residual {
   SurfaceJet j;
@@ -55,6 +58,14 @@ struct Task {
     return s;
   }
 
+  // Near a pole a step that is short in space may be many turns long.
+  UvVec shorten(UvVec d) const {
+    constexpr double kTurn = 0.25;
+    if (const auto period = surface.u_period()) d.u = std::clamp(d.u, -kTurn * *period, kTurn * *period);
+    if (const auto period = surface.v_period()) d.v = std::clamp(d.v, -kTurn * *period, kTurn * *period);
+    return d;
+  }
+
   double rounding(const Residual& s) const {
     return kEps * (s.j.S.cwiseAbs().maxCoeff() + point.cwiseAbs().maxCoeff());
   }
@@ -81,12 +92,13 @@ bool damped_step(const Residual& s, bool newton, double lambda, UvVec& step) {
   return is_finite(step);
 }
 
-// f itself resolves the foot to the root of the rounding only: near the end a step that leaves f unchanged, to
-// rounding, is good if it lowers the tangential residual.
-bool better(const Residual& now, const Residual& then) {
-  constexpr double kSame = 16.0 * kEps;
-  if (then.f < now.f * (1.0 - kSame)) return true;
-  return then.f <= now.f * (1.0 + kSame) && then.tangential < now.tangential;
+// f is known to |r| times the rounding of the coordinates, so that it resolves the foot to the root of that only: near
+// the end a step that leaves f unchanged, to rounding, is good if it lowers the tangential residual.
+bool better(const Task& task, const Residual& now, const Residual& then) {
+  const double rounding = task.rounding(now);
+  const double noise = kAim * rounding * (std::sqrt(2.0 * now.f) + rounding);
+  if (then.f < now.f - noise) return true;
+  return then.f <= now.f + noise && then.tangential < now.tangential;
 }
 
 // One accepted step, by Newton if that works at some damping, else by Gauss-Newton; false where neither lowers f.
@@ -96,10 +108,10 @@ bool advance(const Task& task, Uv& p, Residual& s) {
     for (const double lambda : kDampings) {
       UvVec step;
       if (!damped_step(s, newton, lambda, step)) continue;
-      const Uv q = task.box.clamp(p + step);
+      const Uv q = task.box.clamp(p + task.shorten(step));
       if (q == p) continue;
       const Residual then = task.at(q);
-      if (!better(s, then)) continue;
+      if (!better(task, s, then)) continue;
       p = q;
       s = then;
       return true;
@@ -113,35 +125,43 @@ bool is_degenerate(const Residual& s) {
   return std::min(s.hu, s.hv) <= kCollapsed * std::max(s.hu, s.hv);
 }
 
-// At a pole one parameter moves nothing, so that the gradient can't say which meridian to take. Look at a ring of
-// points a little inside and start from the best of them, if it is better than the pole.
-Uv leave_pole(const Task& task, Uv p, const Residual& s) {
-  constexpr int kRing = 24;
-  constexpr double kInward = 1e-2;
-  const UvBox domain = task.surface.domain();
+// At a pole one parameter moves nothing, so that the gradient can't say which meridian to take: look at the slopes of
+// all of them, and go down the steepest as far as f falls. False where no meridian leads down: the pole is the foot.
+bool leave_pole(const Task& task, Uv& p, Residual& s) {
+  constexpr int kMeridians = 24;
+  constexpr int kHalvings = 40;
   const bool u_collapsed = s.hu < s.hv;
-  const Interval across = u_collapsed ? domain.v : domain.u;
-  const Interval around = u_collapsed ? domain.u : domain.v;
-  if (!std::isfinite(across.length()) || !std::isfinite(around.length())) return p;
-  const double x = u_collapsed ? p.v : p.u;
-  const double inside = x + (x > across.middle() ? -kInward : kInward) * across.length();
-  Uv best = p;
-  double best_f = s.f;
-  for (int i = 0; i < kRing; ++i) {
-    const double turn = around.lo + around.length() * i / kRing;
-    const Uv q = task.box.clamp(u_collapsed ? Uv{turn, inside} : Uv{inside, turn});
-    const double f = 0.5 * (task.surface.position(q) - task.point).squaredNorm();
-    if (f < best_f) {
-      best_f = f;
-      best = q;
-    }
+  const UvBox domain = task.surface.domain();
+  Interval around = u_collapsed ? task.box.u : task.box.v;
+  if (!std::isfinite(around.length())) around = u_collapsed ? domain.u : domain.v;
+  if (!std::isfinite(around.length())) return false;
+
+  Uv start = p;
+  double slope = kAim * task.rounding(s), length = 0.0;
+  for (int i = 0; i < kMeridians; ++i) {
+    const double turn = around.lo + around.length() * i / kMeridians;
+    const Uv q = u_collapsed ? Uv{turn, p.v} : Uv{p.u, turn};
+    const Residual at = task.at(q);
+    const double h = u_collapsed ? at.hv : at.hu, g = u_collapsed ? at.gv : at.gu;
+    if (!(u_collapsed ? at.free_v : at.free_u) || !(std::abs(g) > slope * h)) continue;
+    slope = std::abs(g) / h;
+    length = -g / (h * h);
+    start = q;
   }
-  return best;
+  for (int i = 0; i < kHalvings && length != 0.0; ++i, length *= 0.5) {
+    const Uv q = task.box.clamp(start + (u_collapsed ? UvVec{0.0, length} : UvVec{length, 0.0}));
+    const Residual then = task.at(q);
+    if (!(then.f < s.f)) continue;
+    p = q;
+    s = then;
+    return true;
+  }
+  return false;
 }
 
 void iterate(const Task& task, Uv& p, Residual& s) {
   for (int i = 0; i < kMaxSteps && s.tangential > kAim * task.rounding(s); ++i)
-    if (!advance(task, p, s)) break;
+    if (!advance(task, p, s) || is_degenerate(s)) break;
 }
 
 // Parameters, along one direction of `box`, at which to look for a start: a few in each analytic piece.
@@ -205,16 +225,11 @@ Projection project_near(const Surface& surface, const Xyz& point, Uv guess, cons
 
   Uv p = task.box.clamp(guess);
   Residual s = task.at(p);
-  // Twice: at a pole as the guess, and at a pole that the iteration ran into on a meridian of no use.
-  for (int round = 0; round < 2; ++round) {
-    if (is_degenerate(s)) {
-      const Uv q = leave_pole(task, p, s);
-      if (round > 0 && q == p) break;
-      p = q;
-      s = task.at(p);
-    }
-    iterate(task, p, s);
-    if (!is_degenerate(s)) break;
+  bool at_rest = false;
+  for (int round = 0; round < kPoles && !at_rest; ++round) {
+    if (is_degenerate(s)) at_rest = !leave_pole(task, p, s);
+    if (!at_rest) iterate(task, p, s);
+    if (!is_degenerate(s)) at_rest = true;
   }
   Projection result;
   result.uv = p;
