@@ -1,0 +1,57 @@
+// Geodesics that run from the sites to a point, seen from that point: what a bisector and a vertex are made of.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geodesic/connect.h"
+#include "surface/surface.h"
+
+namespace geovor {
+
+/// A geodesic from a site to the point x. A site can have several to the same point (behind a bump, or round a
+/// cylinder): each is a generator of its own, told apart by its angle polar.t.
+struct SiteRay {
+  int site = -1;
+  Polar polar;     ///< of x about the site
+  Uv uv;           ///< x in the parameter plane
+  Xyz x;           ///< x in space
+  Xyz T;           ///< unit tangent at x, pointing on, away from the site
+  Xyz N;           ///< n x T: where x moves as polar.t grows
+  double y = 0.0;  ///< Jacobi field at x: dx/dt = y N
+};
+
+/// Makes rays of a set of sites on a surface. Both outlive it.
+class SiteRays {
+ public:
+  SiteRays(const Surface& surface, const std::vector<Uv>& sites) : surface_(surface), sites_(sites) {}
+
+  /// The ray with these polar coordinates: O_site(s,t). Nothing where the geodesic can't be traced, or at a conjugate
+  /// point.
+  std::optional<SiteRay> at(int site, Polar polar) const;
+
+  /// The ray that ends at m, found from the guess. Nothing where connect() does not converge.
+  std::optional<SiteRay> to(int site, Uv m, std::optional<Polar> guess = std::nullopt) const;
+
+  const Surface& surface() const { return surface_; }
+  Uv site(int i) const { return sites_[i]; }
+  int count() const { return static_cast<int>(sites_.size()); }
+
+ private:
+  const Surface& surface_;
+  const std::vector<Uv>& sites_;
+};
+
+/// The polar coordinates, to first order, of the point `m` of space near ray.x.
+Polar carry(const SiteRay& ray, const Xyz& m);
+
+/// Whether two rays of one point are the same geodesic.
+bool same_generator(const SiteRay& a, const SiteRay& b);
+
+/// An angle brought into (-pi, pi].
+double wrap_angle(double t);
+
+/// Angle of b seen from a, counter-clockwise about n, in [0, 2 pi).
+double turn_between(const Xyz& a, const Xyz& b, const Xyz& n);
+
+}  // namespace geovor
