@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "surface/knot_vector.h"
 
@@ -28,14 +29,15 @@ inline void raise(double* N, int q, const double* reciprocal, const double* t, d
 }
 
 // From the k-th derivatives of degree q - 1 to the (k+1)-th derivatives of degree q: N' = q (N_i/… - N_i+1/…).
-inline void differentiate(double* N, int q, const double* reciprocal) {
+// `from` may be `to`; the first step of each derivative takes them apart instead of copying.
+inline void differentiate(const double* from, double* to, int q, const double* reciprocal) {
   double saved = 0.0;
   for (int r = 0; r < q; ++r) {
-    const double term = q * N[r] * reciprocal[r];
-    N[r] = saved - term;
+    const double term = q * from[r] * reciprocal[r];
+    to[r] = saved - term;
     saved = term;
   }
-  N[q] = saved;
+  to[q] = saved;
 }
 
 }  // namespace detail
@@ -48,17 +50,25 @@ inline void basis_functions(const KnotVector& knots, int span, double x, BasisRo
   const double* reciprocals = knots.reciprocals(span);
   auto triangle = [reciprocals](int q) { return reciprocals + q * (q - 1) / 2; };
 
-  auto& N = rows[0];
+  double* N = rows[0].data();
+  // Takes N from degree q - 1 to q, and starts the derivative whose order is p - q from there.
+  auto level = [&](int q) {
+    if (q > 0) detail::raise(N, q, triangle(q), t, x);
+    const int order = p - q;
+    if (order == 0 || order >= Orders) return;
+    double* D = rows[order].data();
+    for (int up = q + 1; up <= p; ++up) detail::differentiate(up == q + 1 ? N : D, D, up, triangle(up));
+  };
   N[0] = 1.0;
-  for (int q = 0; q <= p; ++q) {
-    if (q > 0) detail::raise(N.data(), q, triangle(q), t, x);
-    const int order = p - q;  // the functions of degree p - order start the derivative of that order
-    if (order > 0 && order < Orders) {
-      for (int r = 0; r <= q; ++r) rows[order][r] = N[r];
-      for (int up = q + 1; up <= p; ++up) detail::differentiate(rows[order].data(), up, triangle(up));
-    }
+  if constexpr (Degree > 0) {
+    // Written out level by level: as a loop over q the compiler keeps it rolled, at twice the time.
+    [&]<int... Q>(std::integer_sequence<int, Q...>) { (level(Q), ...); }
+    (std::make_integer_sequence<int, Degree + 1>{});
+  } else {
+    for (int q = 0; q <= p; ++q) level(q);
   }
-  for (int order = p + 1; order < Orders; ++order) rows[order].fill(0.0);
+  for (int order = 1; order < Orders; ++order)
+    if (order > p) rows[order].fill(0.0);
 }
 
 }  // namespace geovor

@@ -162,7 +162,24 @@ SurfaceJet BSplineSurface::jet(Uv p, const Span& span) const {
                           v_knots_.unwind(p.v, span.v, span.box.v));
 }
 
-Xyz BSplineSurface::position(Uv p) const { return jet(p).S; }
+Xyz BSplineSurface::position(Uv at) const {
+  const KnotSpan u = u_knots_.find(at.u, 0.0), v = v_knots_.find(at.v, 0.0);
+  BasisRows<1, kMaxDegree> Nu, Nv;
+  basis_functions<1, 0>(u_knots_, u.index, u.turns == 0.0 ? at.u : at.u - u.turns * u_knots_.period(), Nu);
+  basis_functions<1, 0>(v_knots_, v.index, v.turns == 0.0 ? at.v : at.v - v.turns * v_knots_.period(), Nv);
+
+  const int p = u_knots_.degree(), q = v_knots_.degree(), width = rational_ ? 4 : 3;
+  const double* row = &poles_[static_cast<size_t>(u.index - p) * row_length_ + (v.index - q) * width];
+  double H[4] = {0.0, 0.0, 0.0, 0.0};
+  for (int i = 0; i <= p; ++i, row += row_length_) {
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    for (int j = 0; j <= q; ++j)
+      for (int c = 0; c < width; ++c) sum[c] += Nv[0][j] * row[j * width + c];
+    for (int c = 0; c < width; ++c) H[c] += Nu[0][i] * sum[c];
+  }
+  const Xyz local(H[0], H[1], H[2]);
+  return centre_ + (rational_ ? Xyz(local / H[3]) : local);
+}
 
 Span BSplineSurface::span(Uv p, UvVec towards) const {
   const KnotSpan u = u_knots_.find(p.u, towards.u), v = v_knots_.find(p.v, towards.v);

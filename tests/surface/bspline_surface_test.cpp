@@ -156,6 +156,19 @@ TEST(BSplineSurface, LockedJetIsThePlainJetInsideItsSpan) {
   }
 }
 
+TEST(BSplineSurface, PositionIsThatOfTheJet) {
+  std::mt19937 random(11);
+  for (bool rational : {false, true}) {
+    const BSplineSurface open = random_spline(4, 3, 5, rational, 34).surface(), closed = spline_torus(3.0, 1.0, true);
+    for (int i = 0; i < 100; ++i) {
+      const Uv q = random_point(random, {{-3, 9}, {0, 4}});
+      EXPECT_NEAR((closed.position(q) - closed.jet(q).S).norm(), 0.0, 1e-14);
+      const Uv r = random_point(random, open.domain());
+      EXPECT_NEAR((open.position(r) - open.jet(r).S).norm(), 0.0, 1e-14);
+    }
+  }
+}
+
 // A bicubic span is one polynomial: its fourth difference in u vanishes also across the knots, where the plain jet's
 // doesn't.
 TEST(BSplineSurface, LockedJetContinuesThePolynomialAcrossKnots) {
