@@ -21,10 +21,15 @@ constexpr int kLowOrder = 4, kHighOrder = 7;
 /// Sum of the panels' differences, relative to the area, at which the refinement ends. The differences are those of the
 /// lower order: the value itself is better by orders of magnitude.
 constexpr double kTarget = 1e-9;
-/// Surface evaluations at most: about a second. A face that needs more says so in its error.
-constexpr long kBudget = 4'000'000;
+/// Surface evaluations after which nothing is refined any more: some tenths of a second. A face that would need more
+/// says so in its error.
+constexpr long kBudget = 1'500'000;
 /// Bisections of a panel at most: beyond, rounding of t takes over.
 constexpr int kDeepest = 30;
+/// The same inside A: a kink's error falls by four a bisection, so this leaves 1e-12 of it.
+constexpr int kDeepestInner = 20;
+/// Of the target, the part that A's own error may take.
+constexpr double kInnerShare = 0.1;
 
 /// A stretch of a border curve between the lines where A is not smooth.
 struct Panel {
@@ -42,16 +47,23 @@ class GreenIntegral {
   /// The panels of one coedge: cut at its own breaks and where it crosses a knot line.
   void cut(const Coedge& coedge, std::vector<Panel>& out) const;
   void evaluate(Panel& panel);
+  /// From here on A itself is refined, to this error a unit of u. A folded parameterization has kinks of W along lines
+  /// that cross the panels: no other remedy would meet them.
+  void refine_inside(double tolerance) { inner_tolerance_ = tolerance; }
   long evaluations() const { return evaluations_; }
+  const UvBox& box() const { return box_; }
 
  private:
   std::vector<double> knots(bool in_u) const;
   double around(const Panel& panel, int order);
-  double A(double u, double v, int order, int parts);
+  double A(double u, double v, int order);
+  double strip(double a, double b, double v, int order);
+  double refined_strip(double a, double b, double v, int depth);
 
   const Surface& surface_;
   UvBox box_;
   std::vector<double> u_knots_, v_knots_;
+  double inner_tolerance_ = 0.0;
   long evaluations_ = 0;
 };
 
@@ -117,22 +129,33 @@ void GreenIntegral::cut(const Coedge& coedge, std::vector<Panel>& out) const {
   }
 }
 
-double GreenIntegral::A(double u, double v, int order, int parts) {
+double GreenIntegral::strip(double a, double b, double v, int order) {
   const GaussRule& rule = gauss_legendre(order);
+  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
+  double sum = 0.0;
+  for (int i = 0; i < order; ++i) {
+    const SurfaceJet j = surface_.jet({middle + half * rule.nodes[i], v});
+    sum += rule.weights[i] * j.Su.cross(j.Sv).norm();
+  }
+  evaluations_ += order;
+  return half * sum;
+}
+
+double GreenIntegral::refined_strip(double a, double b, double v, int depth) {
+  const double value = strip(a, b, v, kHighOrder);
+  const double difference = std::abs(value - strip(a, b, v, kLowOrder));
+  if (!(difference > inner_tolerance_ * (b - a)) || depth == 0) return value;
+  const double middle = 0.5 * (a + b);
+  return refined_strip(a, middle, v, depth - 1) + refined_strip(middle, b, v, depth - 1);
+}
+
+double GreenIntegral::A(double u, double v, int order) {
   const double lo = std::min(box_.u.lo, u), hi = std::max(box_.u.lo, u);
   double sum = 0.0, a = lo;
   auto knot = std::upper_bound(u_knots_.begin(), u_knots_.end(), lo);
   while (a < hi) {
     const double b = knot != u_knots_.end() && *knot < hi ? *knot++ : hi;
-    const double half = 0.5 * (b - a) / parts;
-    for (int part = 0; part < parts; ++part) {
-      const double middle = a + (2 * part + 1) * half;
-      for (int i = 0; i < order; ++i) {
-        const SurfaceJet j = surface_.jet({middle + half * rule.nodes[i], v});
-        sum += half * rule.weights[i] * j.Su.cross(j.Sv).norm();
-      }
-    }
-    evaluations_ += static_cast<long>(parts) * order;
+    sum += inner_tolerance_ > 0.0 ? refined_strip(a, b, v, kDeepestInner) : strip(a, b, v, order);
     a = b;
   }
   return u < box_.u.lo ? -sum : sum;
@@ -143,13 +166,11 @@ double GreenIntegral::around(const Panel& panel, int order) {
   const double middle = 0.5 * (panel.from + panel.to), half = 0.5 * (panel.to - panel.from);
   // A p-curve along u whose dv is rounding would cost as much as the others and add nothing.
   constexpr double kNoMotion = 1e-16;
-  // The inner integral is refined more slowly: most panels are bisected for the curve's sake.
-  const int parts = 1 << std::min((panel.depth + 1) / 2, 4);
   double sum = 0.0;
   for (int i = 0; i < order; ++i) {
     const CurveJet<2> c = panel.coedge->pcurve->jet(middle + half * rule.nodes[i]);
     const double dv = half * rule.weights[i] * c.d1[1];
-    if (std::abs(dv) > kNoMotion * box_.v.length()) sum += dv * A(c.C[0], c.C[1], order, parts);
+    if (std::abs(dv) > kNoMotion * box_.v.length()) sum += dv * A(c.C[0], c.C[1], order);
   }
   return panel.coedge->reversed ? -sum : sum;
 }
@@ -207,19 +228,15 @@ Area sum_of(const std::vector<Panel>& panels) {
   return area;
 }
 
-}  // namespace
-
-Area face_area(const CadModel&, const CadFace& face) {
-  const std::vector<Coedge> coedges = closed_chains(loops_or_whole_domain(face));
-  GreenIntegral integral(*face.surface, sampled_bounds(coedges));
-  std::vector<Panel> panels;
-  for (const Coedge& coedge : coedges) integral.cut(coedge, panels);
-  for (Panel& panel : panels) integral.evaluate(panel);
+/// Bisects the panels that differ most until their differences add up to the target, or the budget is spent.
+void refine(GreenIntegral& integral, std::vector<Panel>& panels) {
+  const auto size = [](const UvBox& box) { return box.u.length() * box.v.length(); };
+  integral.refine_inside(kInnerShare * kTarget * std::abs(sum_of(panels).value) / size(integral.box()));
   for (bool refined = true; refined;) {
     refined = false;
     const Area area = sum_of(panels);
     const double target = kTarget * std::abs(area.value);
-    if (!(area.error > target)) break;
+    if (!(area.error > target)) return;
     const double share = target / static_cast<double>(panels.size());
     const std::size_t count = panels.size();
     for (std::size_t i = 0; i < count && integral.evaluations() < kBudget; ++i) {
@@ -234,6 +251,17 @@ Area face_area(const CadModel&, const CadFace& face) {
       refined = true;
     }
   }
+}
+
+}  // namespace
+
+Area face_area(const CadModel&, const CadFace& face) {
+  const std::vector<Coedge> coedges = closed_chains(loops_or_whole_domain(face));
+  GreenIntegral integral(*face.surface, sampled_bounds(coedges));
+  std::vector<Panel> panels;
+  for (const Coedge& coedge : coedges) integral.cut(coedge, panels);
+  for (Panel& panel : panels) integral.evaluate(panel);
+  refine(integral, panels);
   const Area area = sum_of(panels);
   if (!std::isfinite(area.value)) {
     throw Error(ErrorCode::FaceRejected, "the surface has a point inside the face that is not a number; repair it");

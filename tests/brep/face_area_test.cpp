@@ -65,6 +65,18 @@ TEST(FaceArea, OfATrimmedParaboloidIsTheClosedForm) {
   expect_area(ring, cap(2) - cap(0.5));
 }
 
+TEST(FaceArea, OfAFoldedParameterizationCountsBothSides) {
+  // x = u, y = (v - c)^2 with the fold c = 0.3 + 0.4 u: W = 2 |v - c|, so the integral over v in [0, 1] is
+  // c^2 + (1 - c)^2.
+  FaceBuilder b(std::make_shared<FunctionSurface>(UvBox{{0, 1}, {0, 1}}, [](Uv p) {
+    const double d = p.v - 0.3 - 0.4 * p.u;
+    return SurfaceJet{{p.u, d * d, 0}, {1, -0.8 * d, 0}, {0, 2 * d, 0}, Xyz::Zero(), Xyz::Zero(), Xyz::Zero()};
+  }));
+  b.rectangle(0, 0, 1, 1);
+  const auto cubes = [](double c) { return (c * c * c - (1 - c) * (1 - c) * (1 - c)) / 3; };
+  expect_area(b, (cubes(0.7) - cubes(0.3)) / 0.4);
+}
+
 TEST(FaceArea, IsBlindToTheStartOfTheLoopAndToWholePeriods) {
   std::vector<Uv> corners{{5.5, 0.2}, {7.5, -0.4}, {8.0, 0.9}, {6.2, 1.2}};
   FaceBuilder first(sphere(1));
