@@ -1,6 +1,7 @@
 // Triangles to faceted B-rep. Vertices and edges are shared by construction: sewing 10,000 triangles takes 13 s, this
 // 0.05.
 #include <BRep_Builder.hxx>
+#include <Eigen/Geometry>
 #include <GeomAbs_Shape.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
