@@ -55,7 +55,7 @@ inline void basis_functions(const KnotVector& knots, int span, double x, BasisRo
   auto level = [&](int q) {
     if (q > 0) detail::raise(N, q, triangle(q), t, x);
     const int order = p - q;
-    if (order == 0 || order >= Orders) return;
+    if (order <= 0 || order >= Orders) return;
     double* D = rows[order].data();
     for (int up = q + 1; up <= p; ++up) detail::differentiate(up == q + 1 ? N : D, D, up, triangle(up));
   };

@@ -71,7 +71,7 @@ std::optional<double> BSplineCurve<Dim>::period() const {
 template <int Dim>
 CurveJet<Dim> BSplineCurve<Dim>::jet(double t) const {
   const KnotSpan span = knots_.find(t, 0.0);
-  return evaluate(span.index, knots_.unwind(t, span.index, knots_.box(span)));
+  return evaluate(span.index, knots_.unwind(t, span));
 }
 
 template <int Dim>

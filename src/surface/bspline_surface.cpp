@@ -79,25 +79,30 @@ BSplineSurface::BSplineSurface(KnotVector u_knots, KnotVector v_knots, const std
       if (rational_) poles_.push_back(w);
     }
   }
-  kernel_ = choose_kernel();
+  kernels_ = choose_kernels();
 }
 
 // Degrees fixed at compile time are worth a factor of three; CAD surfaces are mostly bilinear to biquintic with equal
 // degrees. Everything else runs through the general kernel.
-BSplineSurface::Kernel BSplineSurface::choose_kernel() const {
-  const int p = u_knots_.degree() == v_knots_.degree() ? u_knots_.degree() : 0;
-  switch (p) {
+BSplineSurface::Kernels BSplineSurface::choose_kernels() const {
+  switch (u_knots_.degree() == v_knots_.degree() ? u_knots_.degree() : 0) {
     case 1:
-      return rational_ ? &BSplineSurface::evaluate<1, 4> : &BSplineSurface::evaluate<1, 3>;
+      return kernels<1>();
     case 2:
-      return rational_ ? &BSplineSurface::evaluate<2, 4> : &BSplineSurface::evaluate<2, 3>;
+      return kernels<2>();
     case 3:
-      return rational_ ? &BSplineSurface::evaluate<3, 4> : &BSplineSurface::evaluate<3, 3>;
+      return kernels<3>();
     case 5:
-      return rational_ ? &BSplineSurface::evaluate<5, 4> : &BSplineSurface::evaluate<5, 3>;
+      return kernels<5>();
     default:
-      return rational_ ? &BSplineSurface::evaluate<0, 4> : &BSplineSurface::evaluate<0, 3>;
+      return kernels<0>();
   }
+}
+
+template <int Degree>
+BSplineSurface::Kernels BSplineSurface::kernels() const {
+  if (rational_) return {&BSplineSurface::evaluate<Degree, 4>, &BSplineSurface::locate<Degree, 4>};
+  return {&BSplineSurface::evaluate<Degree, 3>, &BSplineSurface::locate<Degree, 3>};
 }
 
 // The sum over u comes first: its inner loop runs over the contiguous coordinates of a row, so that it vectorizes
@@ -142,6 +147,27 @@ SurfaceJet BSplineSurface::evaluate(int u_span, int v_span, double u, double v) 
   }
 }
 
+template <int Degree, int Width>
+Xyz BSplineSurface::locate(int u_span, int v_span, double u, double v) const {
+  constexpr int kMax = Degree == 0 ? kMaxDegree : Degree;
+  const int p = Degree == 0 ? u_knots_.degree() : Degree;
+  const int q = Degree == 0 ? v_knots_.degree() : Degree;
+  BasisRows<1, kMax> Nu, Nv;
+  basis_functions<1, Degree>(u_knots_, u_span, u, Nu);
+  basis_functions<1, Degree>(v_knots_, v_span, v, Nv);
+  const double* row = &poles_[static_cast<size_t>(u_span - p) * row_length_ + (v_span - q) * Width];
+  double H[Width] = {};
+  for (int i = 0; i <= p; ++i, row += row_length_) {
+    double sum[Width] = {};
+    for (int j = 0; j <= q; ++j)
+      for (int c = 0; c < Width; ++c) sum[c] += Nv[0][j] * row[j * Width + c];
+    for (int c = 0; c < Width; ++c) H[c] += Nu[0][i] * sum[c];
+  }
+  const Xyz local(H[0], H[1], H[2]);
+  if constexpr (Width == 4) return centre_ + local / H[3];
+  return centre_ + local;
+}
+
 std::optional<double> BSplineSurface::u_period() const {
   return u_knots_.periodic() ? std::optional(u_knots_.period()) : std::nullopt;
 }
@@ -152,33 +178,17 @@ std::optional<double> BSplineSurface::v_period() const {
 
 SurfaceJet BSplineSurface::jet(Uv p) const {
   const KnotSpan u = u_knots_.find(p.u, 0.0), v = v_knots_.find(p.v, 0.0);
-  const double x = u.turns == 0.0 ? p.u : p.u - u.turns * u_knots_.period();
-  const double y = v.turns == 0.0 ? p.v : p.v - v.turns * v_knots_.period();
-  return (this->*kernel_)(u.index, v.index, x, y);
+  return (this->*kernels_.jet)(u.index, v.index, u_knots_.unwind(p.u, u), v_knots_.unwind(p.v, v));
 }
 
 SurfaceJet BSplineSurface::jet(Uv p, const Span& span) const {
-  return (this->*kernel_)(span.u, span.v, u_knots_.unwind(p.u, span.u, span.box.u),
-                          v_knots_.unwind(p.v, span.v, span.box.v));
+  return (this->*kernels_.jet)(span.u, span.v, u_knots_.unwind(p.u, span.u, span.box.u),
+                               v_knots_.unwind(p.v, span.v, span.box.v));
 }
 
-Xyz BSplineSurface::position(Uv at) const {
-  const KnotSpan u = u_knots_.find(at.u, 0.0), v = v_knots_.find(at.v, 0.0);
-  BasisRows<1, kMaxDegree> Nu, Nv;
-  basis_functions<1, 0>(u_knots_, u.index, u.turns == 0.0 ? at.u : at.u - u.turns * u_knots_.period(), Nu);
-  basis_functions<1, 0>(v_knots_, v.index, v.turns == 0.0 ? at.v : at.v - v.turns * v_knots_.period(), Nv);
-
-  const int p = u_knots_.degree(), q = v_knots_.degree(), width = rational_ ? 4 : 3;
-  const double* row = &poles_[static_cast<size_t>(u.index - p) * row_length_ + (v.index - q) * width];
-  double H[4] = {0.0, 0.0, 0.0, 0.0};
-  for (int i = 0; i <= p; ++i, row += row_length_) {
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
-    for (int j = 0; j <= q; ++j)
-      for (int c = 0; c < width; ++c) sum[c] += Nv[0][j] * row[j * width + c];
-    for (int c = 0; c < width; ++c) H[c] += Nu[0][i] * sum[c];
-  }
-  const Xyz local(H[0], H[1], H[2]);
-  return centre_ + (rational_ ? Xyz(local / H[3]) : local);
+Xyz BSplineSurface::position(Uv p) const {
+  const KnotSpan u = u_knots_.find(p.u, 0.0), v = v_knots_.find(p.v, 0.0);
+  return (this->*kernels_.position)(u.index, v.index, u_knots_.unwind(p.u, u), v_knots_.unwind(p.v, v));
 }
 
 Span BSplineSurface::span(Uv p, UvVec towards) const {

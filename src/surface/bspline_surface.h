@@ -41,17 +41,25 @@ class BSplineSurface final : public Surface {
   KnotLines knot_lines() const;
 
  private:
-  using Kernel = SurfaceJet (BSplineSurface::*)(int u_span, int v_span, double u, double v) const;
+  // One span's polynomial, by degree (0: any) and number of coordinates a pole.
   template <int Degree, int Width>
   SurfaceJet evaluate(int u_span, int v_span, double u, double v) const;
-  Kernel choose_kernel() const;
+  template <int Degree, int Width>
+  Xyz locate(int u_span, int v_span, double u, double v) const;
+  struct Kernels {
+    SurfaceJet (BSplineSurface::*jet)(int u_span, int v_span, double u, double v) const;
+    Xyz (BSplineSurface::*position)(int u_span, int v_span, double u, double v) const;
+  };
+  template <int Degree>
+  Kernels kernels() const;
+  Kernels choose_kernels() const;
 
   KnotVector u_knots_, v_knots_;
   bool rational_ = false;
   Xyz centre_ = Xyz::Zero();   // poles are kept relative to it
   std::vector<double> poles_;  // unrolled rows of (x, y, z) or (wx, wy, wz, w)
   int row_length_ = 0;         // doubles a row of poles_ (one index i, all j)
-  Kernel kernel_;
+  Kernels kernels_;
 };
 
 }  // namespace geovor

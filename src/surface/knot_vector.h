@@ -54,6 +54,9 @@ class KnotVector {
   /// outermost span holds everything beyond.
   Interval box(const KnotSpan& span) const;
 
+  /// The parameter x, for which `span` was found, in the principal period.
+  double unwind(double x, const KnotSpan& span) const { return span.turns == 0.0 ? x : x - span.turns * period(); }
+
   /// x moved by whole periods into the principal copy of a span whose box, as asked for, was `box`.
   double unwind(double x, int span, const Interval& box) const {
     if (!periodic_ || box.lo == flat_[span]) return x;
