@@ -12,14 +12,37 @@
 #include "base/error.h"
 #include "brep/face_loops.h"
 #include "numeric/gauss_legendre.h"
+#include "numeric/lobatto.h"
 
 namespace geovor {
 namespace {
 
-/// The two orders that are compared. Over a cubic span with moderate stretch the higher is exact to 1e-10.
-constexpr int kLowOrder = 4, kHighOrder = 7;
+/// The rule whose value counts. Over a cubic span with moderate stretch it is exact to 1e-10.
+const GaussRule& fine_rule() {
+  constexpr int kNodes = 7;
+  return gauss_legendre(kNodes);
+}
+
+/// The rule that the fine one is compared with: Lobatto's with nodes at the ends. Two Gauss rules would agree on a kink
+/// that lies beyond the outermost nodes of both, and be wrong together.
+const GaussRule& coarse_rule() {
+  static const GaussRule rule = [] {
+    constexpr int kDegree = 4;
+    // Off the ends, on which a surface with creases may answer for the neighbour.
+    constexpr double kInwards = 1.0 - 1e-10;
+    const LobattoRule lobatto = lobatto_rule(kDegree);
+    GaussRule on_both_sides;
+    for (int i = 0; i <= kDegree; ++i) {
+      on_both_sides.nodes.push_back(kInwards * (2.0 * lobatto.nodes[i] - 1.0));
+      on_both_sides.weights.push_back(2.0 * lobatto.weights[i]);
+    }
+    return on_both_sides;
+  }();
+  return rule;
+}
+
 /// Sum of the panels' differences, relative to the area, at which the refinement ends. The differences are those of the
-/// lower order: the value itself is better by orders of magnitude.
+/// coarse rule: the value itself is mostly better by orders of magnitude.
 constexpr double kTarget = 1e-9;
 /// Surface evaluations after which nothing is refined any more: some tenths of a second. A face that would need more
 /// says so in its error.
@@ -55,9 +78,9 @@ class GreenIntegral {
 
  private:
   std::vector<double> knots(bool in_u) const;
-  double around(const Panel& panel, int order);
-  double A(double u, double v, int order);
-  double strip(double a, double b, double v, int order);
+  double around(const Panel& panel, const GaussRule& rule);
+  double A(double u, double v, const GaussRule& rule);
+  double strip(double a, double b, double v, const GaussRule& rule);
   double refined_strip(double a, double b, double v, int depth);
 
   const Surface& surface_;
@@ -129,55 +152,53 @@ void GreenIntegral::cut(const Coedge& coedge, std::vector<Panel>& out) const {
   }
 }
 
-double GreenIntegral::strip(double a, double b, double v, int order) {
-  const GaussRule& rule = gauss_legendre(order);
+double GreenIntegral::strip(double a, double b, double v, const GaussRule& rule) {
   const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
   double sum = 0.0;
-  for (int i = 0; i < order; ++i) {
+  for (int i = 0; i < static_cast<int>(rule.nodes.size()); ++i) {
     const SurfaceJet j = surface_.jet({middle + half * rule.nodes[i], v});
     sum += rule.weights[i] * j.Su.cross(j.Sv).norm();
   }
-  evaluations_ += order;
+  evaluations_ += static_cast<long>(rule.nodes.size());
   return half * sum;
 }
 
 double GreenIntegral::refined_strip(double a, double b, double v, int depth) {
-  const double value = strip(a, b, v, kHighOrder);
-  const double difference = std::abs(value - strip(a, b, v, kLowOrder));
+  const double value = strip(a, b, v, fine_rule());
+  const double difference = std::abs(value - strip(a, b, v, coarse_rule()));
   if (!(difference > inner_tolerance_ * (b - a)) || depth == 0) return value;
   const double middle = 0.5 * (a + b);
   return refined_strip(a, middle, v, depth - 1) + refined_strip(middle, b, v, depth - 1);
 }
 
-double GreenIntegral::A(double u, double v, int order) {
+double GreenIntegral::A(double u, double v, const GaussRule& rule) {
   const double lo = std::min(box_.u.lo, u), hi = std::max(box_.u.lo, u);
   double sum = 0.0, a = lo;
   auto knot = std::upper_bound(u_knots_.begin(), u_knots_.end(), lo);
   while (a < hi) {
     const double b = knot != u_knots_.end() && *knot < hi ? *knot++ : hi;
-    sum += inner_tolerance_ > 0.0 ? refined_strip(a, b, v, kDeepestInner) : strip(a, b, v, order);
+    sum += inner_tolerance_ > 0.0 ? refined_strip(a, b, v, kDeepestInner) : strip(a, b, v, rule);
     a = b;
   }
   return u < box_.u.lo ? -sum : sum;
 }
 
-double GreenIntegral::around(const Panel& panel, int order) {
-  const GaussRule& rule = gauss_legendre(order);
+double GreenIntegral::around(const Panel& panel, const GaussRule& rule) {
   const double middle = 0.5 * (panel.from + panel.to), half = 0.5 * (panel.to - panel.from);
   // A p-curve along u whose dv is rounding would cost as much as the others and add nothing.
   constexpr double kNoMotion = 1e-16;
   double sum = 0.0;
-  for (int i = 0; i < order; ++i) {
+  for (int i = 0; i < static_cast<int>(rule.nodes.size()); ++i) {
     const CurveJet<2> c = panel.coedge->pcurve->jet(middle + half * rule.nodes[i]);
     const double dv = half * rule.weights[i] * c.d1[1];
-    if (std::abs(dv) > kNoMotion * box_.v.length()) sum += dv * A(c.C[0], c.C[1], order);
+    if (std::abs(dv) > kNoMotion * box_.v.length()) sum += dv * A(c.C[0], c.C[1], rule);
   }
   return panel.coedge->reversed ? -sum : sum;
 }
 
 void GreenIntegral::evaluate(Panel& panel) {
-  panel.value = around(panel, kHighOrder);
-  panel.difference = std::abs(panel.value - around(panel, kLowOrder));
+  panel.value = around(panel, fine_rule());
+  panel.difference = std::abs(panel.value - around(panel, coarse_rule()));
 }
 
 /// The loops with the gaps between neighbouring coedges closed by straight lines: Green's theorem wants closed loops.
