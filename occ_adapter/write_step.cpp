@@ -3,6 +3,7 @@
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepBasic_Product.hxx>
 #include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <algorithm>
@@ -40,8 +41,14 @@ void require_writable(const TriangleMesh& mesh) {
   }
 }
 
-/// The header, without the clock: the same mesh gives the same bytes.
+/// Header and product name, without the clock and without OpenCASCADE's running number: the same mesh gives the same
+/// bytes.
 void fill_header(STEPControl_Writer& writer, const std::string& path) {
+  const Handle(TCollection_HAsciiString) product = new TCollection_HAsciiString(fs::path(path).stem().string().c_str());
+  for (int i = 1; i <= writer.Model()->NbEntities(); ++i) {
+    const auto named = Handle(StepBasic_Product)::DownCast(writer.Model()->Value(i));
+    if (!named.IsNull()) named->SetName(product), named->SetId(product);
+  }
   const auto text = [](const char* s) { return new TCollection_HAsciiString(s); };
   APIHeaderSection_MakeHeader header(writer.Model());
   header.SetName(new TCollection_HAsciiString(fs::path(path).filename().string().c_str()));
@@ -74,11 +81,13 @@ void write_step(const TriangleMesh& mesh, const std::string& unit, const std::st
     occ::translated(ErrorCode::Unwritable, "OpenCASCADE fails to write STEP", "write .stl or .obj", [&] {
       const occ::Silence silence;
       STEPControl_Controller::Init();
-      // Both units alike: OpenCASCADE then writes the numbers of the mesh as they are.
+      // Both units alike: OpenCASCADE then writes the numbers of the mesh as they are. It reads them when the writer is
+      // made, not when it writes.
       const occ::StaticParameter model_unit("xstep.cascade.unit", length_unit);
       const occ::StaticParameter file_unit("write.step.unit", length_unit);
       const occ::StaticParameter schema("write.step.schema", "AP214IS");
-      const occ::StaticParameter product("write.step.product.name", fs::path(path).stem().string());
+      // Planes and lines need no curves in the parameter plane, and without them the file is half as long.
+      const occ::StaticParameter no_pcurves("write.surfacecurve.mode", "0");
       write_shape(occ::facet_shape(mesh), path, beside);
     });
     fs::rename(beside, path, failed);
