@@ -27,6 +27,23 @@ constexpr double kBorderStep = 0.5;
 // How often a stretch of the border is halved where a third site might own a piece between two equal labels.
 constexpr int kDeepestSplit = 4;
 
+/// Whether a generator that is nearest at neither place may be nearest in between, told from the distances there and
+/// their slopes along the straight way.
+bool may_be_hidden(const LabelledPlace& from, const LabelledPlace& to) {
+  if (from.candidates.empty() || to.candidates.empty()) return false;
+  const SiteRay &a = from.candidates.front(), &b = to.candidates.front();
+  const Xyz way = b.x - a.x;
+  const double h = way.norm();
+  for (const SiteRay& c : from.candidates) {
+    for (const SiteRay& d : to.candidates) {
+      if (c.site != d.site || c.site == a.site || d.site == b.site) continue;
+      const double falls = (c.T - a.T).dot(way) / h, rises = (d.T - b.T).dot(way) / h;
+      if (cubic_minimum(c.polar.s - a.polar.s, falls, d.polar.s - b.polar.s, rises, h) < 0.0) return true;
+    }
+  }
+  return false;
+}
+
 class DiagramBuilder {
  public:
   DiagramBuilder(const FaceDomain& domain, const std::vector<Uv>& sites, double tolerance, double spacing)
@@ -122,13 +139,7 @@ void DiagramBuilder::scan_cycle(int cycle) {
 
 void DiagramBuilder::scan_border_step(int cycle, const UvPath& path, const LabelledPlace& from, const LabelledPlace& to,
                                       int depth) {
-  const auto gap = [](const LabelledPlace& p) {
-    return p.candidates.size() > 1 ? p.candidates[1].polar.s - p.candidates[0].polar.s
-                                   : std::numeric_limits<double>::infinity();
-  };
-  if (from.candidates.empty() || to.candidates.empty()) return;
-  const double length = (to.candidates[0].x - from.candidates[0].x).norm();
-  if (depth < kDeepestSplit && gap(from) + gap(to) < 2.0 * length) {
+  if (depth < kDeepestSplit && may_be_hidden(from, to)) {
     const double k = 0.5 * (from.at + to.at);
     const LabelledPlace middle{k, labels_.around(path(k))};
     scan_border_step(cycle, path, from, middle, depth + 1);

@@ -9,7 +9,8 @@ namespace {
 // Chords are shorter than the way along the edge; their difference is far below this part.
 constexpr double kChordSlack = 1.02;
 
-/// Smallest value of the cubic with these end values and slopes over a step h, at its interior points.
+}  // namespace
+
 double cubic_minimum(double g0, double s0, double g1, double s1, double h) {
   constexpr int kSamples = 8;
   double least = std::min(g0, g1);
@@ -20,8 +21,6 @@ double cubic_minimum(double g0, double s0, double g1, double s1, double h) {
   }
   return least;
 }
-
-}  // namespace
 
 RivalWatch::RivalWatch(const CandidateLabels& labels, const BisectorPoint& start) : labels_(labels), last_(start) {
   enlist(start);

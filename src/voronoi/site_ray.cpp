@@ -1,9 +1,12 @@
 #include "voronoi/site_ray.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "geodesic/closed_forms.h"
 #include "geodesic/offset.h"
 #include "surface/forms.h"
 
@@ -23,10 +26,35 @@ bool usable(const SiteRay& ray) {
   return ray.x.allFinite() && ray.N.allFinite() && std::abs(ray.y) > kConjugate * ray.polar.s;
 }
 
+// Shots at one target; a guess from a neighbour needs two or three.
+constexpr int kMostShots = 12;
+
+// Integrator tolerance of the first shot, whose miss is that of the guess anyway.
+constexpr double kCoarseShot = 1e-7;
+
+// A miss that a step of second order makes good to rounding, as a part of the length (and of y).
+constexpr double kLastMiss = 1e-5;
+
+// The longest step of the aim: radians, and a part of the length.
+constexpr double kMostTurn = 0.5;
+constexpr double kMostStretch = 0.5;
+
 void set_frame(const SurfaceJet& j, UvVec direction, SiteRay& ray) {
   ray.x = j.S;
   ray.T = push_forward(j, direction).normalized();
   ray.N = unit_normal(j).cross(ray.T);
+}
+
+/// From the end of the ray to the target: about the end the geodesic circle has the curvature y'/y.
+Polar second_order_step(const SiteRay& ray, double dy, const Xyz& target) {
+  const double a = ray.T.dot(target - ray.x), b = ray.N.dot(target - ray.x);
+  const double y_there = ray.y + a * dy;
+  return {a + 0.5 * b * b * dy / ray.y, b / (y_there * ray.y > 0.0 ? y_there : ray.y)};
+}
+
+SiteRay moved(SiteRay ray, const Polar& step, double dy, Uv m, const Xyz& target) {
+  const Xyz T = (ray.T + step.t * dy * ray.N).normalized(), n = ray.T.cross(ray.N);
+  return {ray.site, {ray.polar.s + step.s, ray.polar.t + step.t}, m, target, T, n.cross(T), ray.y + step.s * dy};
 }
 
 }  // namespace
@@ -44,12 +72,39 @@ std::optional<SiteRay> SiteRays::at(int site, Polar polar) const {
 }
 
 std::optional<SiteRay> SiteRays::to(int site, Uv m, std::optional<Polar> guess) const {
+  if (guess && !has_closed_form(surface_)) return shoot_near(site, m, *guess);
   const Connection c = connect(surface_, sites_[site], m, guess);
   if (c.status != ConnectStatus::Converged || !(c.length > 0.0)) return std::nullopt;
   SiteRay ray{site, {c.length, c.angle}, m, {}, {}, {}, c.y};
   set_frame(surface_.jet(m), c.end_direction, ray);
   if (!usable(ray)) return std::nullopt;
   return ray;
+}
+
+// Only the geodesic next to the guess is of use here, where connect() would go on to look for any other. A coarse shot
+// first, then full ones; the last miss, of size e, is made good by the step that it asks for, which leaves e^3.
+std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim) const {
+  const Xyz target = surface_.position(m);
+  const FirstForm at_site = first_form(surface_.jet(sites_[site]));
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMostShots && aim.s > 0.0; ++i) {
+    TraceOptions options;
+    options.stop_at_domain = false;
+    if (i == 0) options.tolerance = kCoarseShot;
+    const TraceResult shot =
+        trace_geodesic(surface_, sites_[site], direction_at_angle(at_site, aim.t), aim.s, options);
+    if (shot.status != TraceStatus::Converged) return std::nullopt;
+    SiteRay ray{site, aim, shot.end.p, {}, {}, {}, shot.end.y};
+    set_frame(surface_.jet(shot.end.p), shot.end.d, ray);
+    const double miss = (target - ray.x).norm();
+    if (!usable(ray) || !(miss < last)) return std::nullopt;
+    const Polar step = second_order_step(ray, shot.end.dy, target);
+    if (i > 0 && miss <= kLastMiss * std::min(aim.s, std::abs(ray.y))) return moved(ray, step, shot.end.dy, m, target);
+    const double k = std::min({1.0, kMostTurn / std::abs(step.t), kMostStretch * aim.s / std::abs(step.s)});
+    aim = {aim.s + k * step.s, aim.t + k * step.t};
+    if (i > 0) last = miss;
+  }
+  return std::nullopt;
 }
 
 Polar carry(const SiteRay& ray, const Xyz& m) {

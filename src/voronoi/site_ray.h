@@ -30,7 +30,8 @@ class SiteRays {
   /// point.
   std::optional<SiteRay> at(int site, Polar polar) const;
 
-  /// The ray that ends at m, found from the guess. Nothing where connect() does not converge.
+  /// The ray that ends at m: with a guess the geodesic next to it, without one what connect() finds. Nothing where the
+  /// iteration does not settle.
   std::optional<SiteRay> to(int site, Uv m, std::optional<Polar> guess = std::nullopt) const;
 
   const Surface& surface() const { return surface_; }
@@ -38,6 +39,8 @@ class SiteRays {
   int count() const { return static_cast<int>(sites_.size()); }
 
  private:
+  std::optional<SiteRay> shoot_near(int site, Uv m, Polar aim) const;
+
   const Surface& surface_;
   const std::vector<Uv>& sites_;
 };
