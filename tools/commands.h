@@ -7,7 +7,6 @@ namespace geovor {
 
 int run(const InfoRequest& request);
 int run(const MeshRequest& request);
-int run(const VoronoiRequest& request);
 inline int run(const NothingRequest&) { return 0; }
 
 }  // namespace geovor

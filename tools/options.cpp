@@ -13,7 +13,6 @@ namespace geovor {
 namespace {
 
 const std::vector<std::string> kMeshEndings = {".stl", ".step", ".stp", ".obj", ".svg"};
-const std::vector<std::string> kVoronoiEndings = {".json", ".svg"};
 
 const char* const kFooter =
     "Lengths are in the unit of the input file (geovor info prints it). Faces are numbered as FreeCAD numbers them: "
@@ -71,7 +70,7 @@ void add_mesh(CLI::App& app, MeshRequest& request, std::string& faces, bool& pro
     return command->add_option(name, value, help)->check(length_check(zero_too))->type_name("LENGTH");
   };
   length("--size", request.size, "The length that an edge is to have")->required();
-  length("--min-size", request.min_size, "No rule asks for less than this (default: a hundredth of --size)");
+  length("--min-size", request.min_size, "No rule asks for less than this (default: a twentieth of --size)");
   length("--deflection", request.deflection, "Largest distance from a triangle to the face (default: no limit)");
   length("--angle", request.angle, "Largest turn of the normal across an edge, degrees (default: 15)")
       ->type_name("DEG");
@@ -84,24 +83,6 @@ void add_mesh(CLI::App& app, MeshRequest& request, std::string& faces, bool& pro
   command->add_flag("--progress,!--no-progress", progress, "Progress on stderr (default: where that is a terminal)");
   command->add_flag("--ascii", request.ascii, "Write .stl as text");
   command->add_flag("--strict", request.strict, "Write nothing unless every face was meshed");
-}
-
-void add_voronoi(CLI::App& app, VoronoiRequest& request, std::string& face) {
-  CLI::App* command = app.add_subcommand("voronoi", "Compute the geodesic Voronoi diagram of sites on one face");
-  add_input(*command, request.input);
-  add_outputs(*command, request.outputs, ".json .svg");
-  command->add_option("--face", face, "The face, such as 3 or Face3 (not needed where the file has one)")
-      ->type_name("N");
-  CLI::Option* sites =
-      command->add_option("--sites", request.sites, "CSV file with the header u,v or x,y,z")->type_name("FILE");
-  CLI::Option* count = command->add_option("--count", request.count, "Place so many sites, evenly")
-                           ->check(whole_number_check(1))
-                           ->type_name("N");
-  command->add_option("--seed", request.seed, "Another number places other sites (default: 1)")
-      ->check(whole_number_check(0))
-      ->needs(count)
-      ->type_name("S");
-  sites->excludes(count);
 }
 
 /// CLI11's messages run over several lines and end in full stops; ours are one line.
@@ -130,15 +111,6 @@ Request checked(MeshRequest request, const std::string& faces, const CLI::Option
   return request;
 }
 
-Request checked(VoronoiRequest request, const std::string& face) {
-  check_endings(request.outputs, kVoronoiEndings);
-  if (!face.empty()) request.face = parse_face(face);
-  if (request.sites.empty() && request.count == 0) {
-    throw Error(ErrorCode::Usage, "voronoi needs sites; give --sites FILE or --count N");
-  }
-  return request;
-}
-
 }  // namespace
 
 Request parse_command_line(int argc, const char* const* argv) {
@@ -148,12 +120,10 @@ Request parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   InfoRequest info;
   MeshRequest mesh;
-  VoronoiRequest voronoi;
-  std::string mesh_faces, voronoi_face;
+  std::string mesh_faces;
   bool wants_progress = false;
   add_info(app, info);
   add_mesh(app, mesh, mesh_faces, wants_progress);
-  add_voronoi(app, voronoi, voronoi_face);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -162,7 +132,6 @@ Request parse_command_line(int argc, const char* const* argv) {
     return NothingRequest{};
   }
   if (app.got_subcommand("info")) return info;
-  if (app.got_subcommand("voronoi")) return checked(voronoi, voronoi_face);
   return checked(mesh, mesh_faces, *app.get_subcommand("mesh")->get_option("--progress"), wants_progress);
 }
 

@@ -1,9 +1,7 @@
 // The command line: what each command was asked to do.
 #pragma once
 
-#include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -33,19 +31,10 @@ struct MeshRequest {
   bool strict = false;  ///< write nothing unless every face was meshed
 };
 
-struct VoronoiRequest {
-  std::string input;
-  std::vector<std::string> outputs;
-  std::optional<int> face;
-  std::string sites;  ///< path of a CSV file, empty: none
-  int count = 0;      ///< sites to place; 0: none
-  std::uint64_t seed = 1;
-};
-
 /// Nothing left to do: the help or the version was printed.
 struct NothingRequest {};
 
-using Request = std::variant<NothingRequest, InfoRequest, MeshRequest, VoronoiRequest>;
+using Request = std::variant<NothingRequest, InfoRequest, MeshRequest>;
 
 /// Prints the help or the version on stdout where these are asked for. Throws Error(Usage), with one line that ends in
 /// where to read more.

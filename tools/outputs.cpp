@@ -22,8 +22,14 @@ namespace fs = std::filesystem;
 std::mutex staging_mutex;
 std::set<std::string> staging_folders;
 
+/// The file that a path means: what a link points at, else the path itself.
+std::string target_of(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored).string() : path;
+}
+
 fs::path folder_of(const std::string& path) {
-  const fs::path parent = fs::path(path).parent_path();
+  const fs::path parent = fs::path(target_of(path)).parent_path();
   return parent.empty() ? fs::path(".") : parent;
 }
 
@@ -41,6 +47,9 @@ void check_place(const std::string& path) {
   }
   if (fs::is_directory(path, ignored)) {
     throw Error(ErrorCode::Unwritable, fmt::format("{}: is a folder; name a file in it", path));
+  }
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+    throw Error(ErrorCode::Unwritable, fmt::format("{}: is no ordinary file; name another", path));
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
     throw Error(ErrorCode::Unwritable, fmt::format("{}: the folder '{}' can't be written to ({}); choose another", path,
@@ -114,7 +123,7 @@ void StagedOutputs::add(const std::string& path, const std::function<void(const 
     if (const std::size_t at = message.find(staged); at != std::string::npos) message.replace(at, staged.size(), path);
     throw Error(error.code(), message);
   }
-  files_.push_back({staged, path});
+  files_.push_back({staged, target_of(path)});
 }
 
 void StagedOutputs::commit() {

@@ -1,6 +1,7 @@
 """Checks the rules of docs/ARCHITECTURE.md on a source tree: prints a line for each breach, exits 1 if there is one.
 
 - A room includes only itself and the rooms that its CMakeLists.txt names in DEPENDS; those names make no cycle.
+- The table of docs/ARCHITECTURE.md says the same.
 - No file includes itself by way of others.
 - OpenCASCADE's headers (*.hxx) stay in occ_adapter and in the program that makes the samples, and there in .cpp files and
   occ_private.h only.
@@ -74,6 +75,17 @@ def check_room_includes(root, rooms):
                 yield f"{path.relative_to(root)}: {room} may not include the program ({name})"
 
 
+def check_table(root, rooms):
+    table = {}
+    for line in (root / "docs" / "ARCHITECTURE.md").read_text().splitlines():
+        row = re.fullmatch(r"\| `(\w+)` \|.*\| ?([\w ]*)\|", line)
+        if row:
+            table[row.group(1)] = set(row.group(2).split())
+    for room in sorted(rooms.keys() | table.keys()):
+        if rooms.get(room) != table.get(room):
+            yield f"docs/ARCHITECTURE.md: {room}: the table and its CMakeLists.txt differ in what it may include"
+
+
 def check_kernel_headers(root):
     for path in sources(root, "src", "occ_adapter", "tools", "samples", "tests"):
         names = [name for _, name in includes(path) if name.endswith(".hxx")]
@@ -114,6 +126,7 @@ def breaches(root):
     if found:
         yield "rooms depend on each other in a circle: " + " -> ".join(found)
     yield from check_room_includes(root, rooms)
+    yield from check_table(root, rooms)
     yield from check_kernel_headers(root)
     yield from check_file_cycles(root)
     yield from check_lengths(root)

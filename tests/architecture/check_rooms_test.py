@@ -7,6 +7,8 @@ import unittest
 import check_rooms
 
 GOOD = {
+    "docs/ARCHITECTURE.md": "| room | what | may include |\n| `base` | points | |\n| `surface` | maps | base |\n"
+                            "| `occ_adapter` | files | surface base |\n",
     "src/base/CMakeLists.txt": "geovor_room(base)",
     "src/base/uv.h": "#pragma once\n#include <cmath>\n",
     "src/surface/CMakeLists.txt": "geovor_room(surface SOURCES a.cpp\n  DEPENDS base)",
@@ -39,7 +41,13 @@ class CheckRooms(unittest.TestCase):
         self.expect_one({"src/base/bad.h": '#include "surface/b.h"\n'}, "base may not include surface")
 
     def test_rooms_may_not_depend_in_a_circle(self):
-        self.expect_one({"src/base/CMakeLists.txt": "geovor_room(base DEPENDS surface)"}, "rooms depend on each other")
+        self.expect_one({"src/base/CMakeLists.txt": "geovor_room(base DEPENDS surface)",
+                         "docs/ARCHITECTURE.md": GOOD["docs/ARCHITECTURE.md"].replace("| |", "| surface |")},
+                        "rooms depend on each other")
+
+    def test_the_table_of_the_rooms_is_true(self):
+        self.expect_one({"src/surface/CMakeLists.txt": "geovor_room(surface DEPENDS)",
+                         "src/surface/a.h": ""}, "surface: the table")
 
     def test_files_may_not_include_in_a_circle(self):
         self.expect_one({"src/surface/a.h": '#include "surface/b.h"\n', "src/surface/b.h": '#include "surface/a.h"\n'},

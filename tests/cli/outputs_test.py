@@ -35,6 +35,14 @@ class Outputs(ProgramTest):
         self.succeed("mesh", sample("cylinder.step"), "--size", 4, "-o", "A.STL")
         self.assertEqual((self.folder / "A.STL").stat().st_size % 50, 84 % 50)
 
+    def test_a_link_is_followed(self):
+        (self.folder / "real").mkdir()
+        (self.folder / "link.stl").symlink_to("real/part.stl")
+        self.succeed("mesh", sample("cylinder.step"), "--size", 4, "-o", "link.stl")
+        self.assertTrue((self.folder / "link.stl").is_symlink())
+        self.assertGreater((self.folder / "real" / "part.stl").stat().st_size, 84)
+        self.assertEqual(self.files(), ["link.stl", "real", "real/part.stl"])
+
     def test_an_interrupt_stops_soon_and_leaves_nothing(self):
         program = subprocess.Popen([PROGRAM, "mesh", sample("plate.step"), "--size", "0.3", "-o", "out.stl", "--progress"],
                                    cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
