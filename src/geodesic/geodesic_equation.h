@@ -20,11 +20,11 @@ inline GeodesicState to_state(const GeodesicVector& x) { return {{x[0], x[1]}, {
 /// d/ds of the state. The second derivative of the curve in space, q = Suu u'^2 + 2 Suv u'v' + Svv v'^2 + Su u'' + Sv
 /// v'', has no tangential part (this is (2) of the paper without spelling out the Christoffel symbols), and y'' = -K y.
 /// With m = Su x Sv all quotients have |m|^2 = W^2 below, formed without the cancellation of EG - F^2, so that sheared
-/// parameterizations keep their digits. NaN or infinite where the metric vanishes.
-inline GeodesicVector geodesic_slope(const SurfaceJet& j, const GeodesicVector& x) {
+/// parameterizations keep their digits. NaN or infinite where the metric vanishes. `m` comes back for the caller.
+inline GeodesicVector geodesic_slope(const SurfaceJet& j, const GeodesicVector& x, Xyz& m) {
   const double du = x[2], dv = x[3];
   const Xyz q = (du * du) * j.Suu + (2.0 * du * dv) * j.Suv + (dv * dv) * j.Svv;
-  const Xyz m = j.Su.cross(j.Sv);
+  m = j.Su.cross(j.Sv);
   const double inverse_W2 = 1.0 / m.squaredNorm();
   const double Muv = j.Suv.dot(m);
   const double K = (j.Suu.dot(m) * j.Svv.dot(m) - Muv * Muv) * inverse_W2 * inverse_W2;

@@ -56,10 +56,10 @@ GeodesicIntegrator::GeodesicIntegrator(const Surface& surface, Uv start, UvVec d
       reach_{{start.u, start.u}, {start.v, start.v}} {
   options_.tolerance = std::max(options.tolerance, kSmallestTolerance);
   const SurfaceJet j = refresh();
-  const double speed = norm(metric_, direction);
+  const double speed = push_forward(j, direction).norm();  // the form would cancel where parameter lines are sheared
   x_[2] /= speed;
   x_[3] /= speed;
-  slope_ = geodesic_slope(j, x_);
+  slope_ = geodesic_slope(j, x_, normal_);
   if (!slope_.allFinite()) {
     status_ = TraceStatus::DegenerateMetric;
     return;
@@ -72,14 +72,14 @@ SurfaceJet GeodesicIntegrator::refresh() {
   ++evaluations_;
   const SurfaceJet j = piece_.jet(surface_, {x_[0], x_[1]});
   metric_ = first_form(j);
-  slope_ = geodesic_slope(j, x_);
+  slope_ = geodesic_slope(j, x_, normal_);
   fresh_ = true;
   return j;
 }
 
 GeodesicVector GeodesicIntegrator::slope_at(const GeodesicVector& x) {
   ++evaluations_;
-  return geodesic_slope(piece_.jet(surface_, {x[0], x[1]}), x);
+  return geodesic_slope(piece_.jet(surface_, {x[0], x[1]}), x, last_normal_);
 }
 
 // Three lengths over which the equation changes: the radius of curvature, the reach of the parameterization (the
@@ -94,7 +94,8 @@ BorderSlack GeodesicIntegrator::slack() const {
   constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
   const double per_W = kBorderSlack * length_ / std::sqrt(metric_.W2());
   return {{std::max(kRounding * std::abs(x_[0]), per_W * std::sqrt(metric_.G)),
-           std::max(kRounding * std::abs(x_[1]), per_W * std::sqrt(metric_.E))}};
+           std::max(kRounding * std::abs(x_[1]), per_W * std::sqrt(metric_.E))},
+          kLook * length_};
 }
 
 // At a border the side on which the path goes on is told by its direction and, along the border, by its curvature
@@ -133,15 +134,21 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
   const bool bordered = piece_.has_borders();
   const BorderSlack beyond = bordered ? slack() : BorderSlack{};
   const Exit ahead = bordered ? predict_exit(piece_, x_, slope_, beyond) : Exit{};
+  if (ahead.s == 0.0) {
+    x_[ahead.border.axis] = ahead.border.at;
+    return cross(ahead.border);
+  }
   // Equal steps to the end rather than full ones and a short last one.
   const double even = remaining / std::ceil(remaining / next_h_);
   const double h = std::min({even, ahead.s, cap_});
   cap_ = kInf;
   const auto trial = dop853::step(x_, slope_, h, [this](const GeodesicVector& x) { return slope_at(x); });
   const double error = dop853::error_estimate(error_of(trial.error5, h), error_of(trial.error3, h));
+  // The last stage stands at the step's end. A normal that has turned about there means a pole run over unseen.
+  const bool regular = last_normal_.dot(normal_) > 0.0;
   const double factor = kSafety * std::pow(error, -1.0 / dop853::kEstimateOrder);
-  if (!(error <= 1.0)) {
-    next_h_ = h * (factor > kShrink ? factor : kShrink);  // kShrink also for NaN
+  if (!(error <= 1.0 && regular)) {
+    next_h_ = h * (regular && factor > kShrink ? factor : kShrink);  // kShrink also for NaN
     return next_h_ > kSmallestStep * length_ ? TraceStatus::Converged : TraceStatus::DegenerateMetric;
   }
   // A step cut short by a border or the end says little about how long one may be.
@@ -169,7 +176,7 @@ bool GeodesicIntegrator::land(const Border& border, GeodesicVector x, const Geod
                               double remaining) {
   const double delta = length_to_border(border, x, slope);
   const double limit = longest_landing(next_h_, options_.tolerance);
-  if (!(std::abs(delta) <= limit && s + delta <= remaining)) return false;
+  if (!(std::abs(delta) <= limit)) return false;
   if (delta != 0.0) {
     const GeodesicVector k2 = slope_at(x + 0.5 * delta * slope);
     const GeodesicVector k3 = slope_at(x + 0.5 * delta * k2);
@@ -179,10 +186,11 @@ bool GeodesicIntegrator::land(const Border& border, GeodesicVector x, const Geod
   const double rest = (border.at - x[border.axis]) / x[border.axis + 2];
   // Linear is enough for a thousandth of a step that itself was short; a path that turns at the border fails here.
   constexpr double kLinear = 1e-3;
-  if (!(std::abs(rest) <= kLinear * limit)) return false;
+  const double landed = s + delta + rest;
+  if (!(std::abs(rest) <= kLinear * limit && landed > 0.0 && landed <= remaining)) return false;
   x += rest * slope;
   x[border.axis] = border.at;
-  accept(x, s + delta + rest);
+  accept(x, landed);
   return true;
 }
 

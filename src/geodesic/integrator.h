@@ -43,10 +43,12 @@ class GeodesicIntegrator {
   TraceOptions options_;
   Piece piece_;
   GeodesicVector x_, slope_;
-  FirstForm metric_{};   ///< at x_
-  bool fresh_ = false;   ///< slope_ and metric_ belong to x_
-  double next_h_ = 0.0;  ///< that the error control proposes
-  double cap_;           ///< the next step alone may not be longer: a border is known to lie there
+  Xyz normal_ = Xyz::Zero();       ///< Su x Sv at x_
+  Xyz last_normal_ = Xyz::Zero();  ///< at the last place where the slope was evaluated
+  FirstForm metric_{};             ///< at x_
+  bool fresh_ = false;             ///< slope_ and metric_ belong to x_
+  double next_h_ = 0.0;            ///< that the error control proposes
+  double cap_;                     ///< the next step alone may not be longer: a border is known to lie there
   double covered_ = 0.0;
   int steps_ = 0;
   int evaluations_ = 0;

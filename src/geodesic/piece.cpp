@@ -35,10 +35,13 @@ void open_domain_borders(Interval& range, Interval domain) {
 
 Interval intersection(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 
-// Smallest s > 0 with w s + c s^2 / 2 = gap, for a gap that is not negative. On the border itself (gap within the
-// slack) the root s = 0 is where the path comes from.
-double time_to_cross(double gap, double w, double c, double slack) {
-  if (gap <= slack) return w < 0.0 && c > 0.0 ? -2.0 * w / c : kInf;
+// Smallest s >= 0 with w s + c s^2 / 2 = gap. A path on the border (gap within the slack) crosses it here and now if it
+// runs outwards, else where it comes back.
+double time_to_cross(double gap, double w, double c, double slack, double look) {
+  if (gap <= slack) {
+    if (w + look * c > 0.0) return 0.0;
+    return c > 0.0 ? -2.0 * w / c : kInf;
+  }
   const double discriminant = w * w + 2.0 * c * gap;
   if (!(discriminant >= 0.0)) return kInf;
   const double denominator = w + std::sqrt(discriminant);
@@ -137,7 +140,7 @@ Exit predict_exit(const Piece& piece, const GeodesicVector& x, const GeodesicVec
   Exit first;
   for_each_border(piece, [&](const Border& b) {
     const double s = time_to_cross(b.side * (b.at - x[b.axis]), b.side * slope[b.axis], b.side * slope[b.axis + 2],
-                                   slack.along[b.axis]);
+                                   slack.along[b.axis], slack.look);
     if (s < first.s) first = {s, b};
   });
   return first;

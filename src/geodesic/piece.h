@@ -22,9 +22,10 @@ struct Exit {
   Border border;
 };
 
-/// How far a point may lie beyond a border and still count as on it, in u and in v.
+/// What counts as being on a border, and as running outwards there.
 struct BorderSlack {
-  double along[2];
+  double along[2] = {0.0, 0.0};  ///< how far beyond a border a point still lies on it, in u and in v
+  double look = 0.0;             ///< the arc length ahead at which a path's direction on a border is told
 };
 
 /// A span of the surface with its borders, moved by whole periods to where the path is.

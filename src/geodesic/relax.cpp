@@ -18,6 +18,9 @@ constexpr int kMaxHalvings = 12;
 // Steps below this part of the length end the iteration: shooting takes over from there.
 constexpr double kSettled = 1e-7;
 
+// Shooting that ends with a length farther from the relaxed one than this has found another geodesic.
+constexpr double kSamePath = 0.02;
+
 struct Rule {
   LobattoRule lobatto;
   Eigen::MatrixXd stiffness;  // D^T W D: the energy of node positions r is 1/2 r^T stiffness r
@@ -180,7 +183,9 @@ Connection connect_along(const Surface& surface, const Ends& ends, const std::ve
     evaluations += path.evaluations;
     c = shoot(surface, ends, path.start, options);
     c.evaluations = evaluations += c.evaluations;
-    if (c.status == ConnectStatus::Converged || level + 1 == kDegrees.size()) break;
+    const bool same_path = std::abs(c.length - path.start.s) <= kSamePath * c.length;
+    if (c.status == ConnectStatus::Converged && same_path) break;
+    if (level + 1 == kDegrees.size()) break;
     nodes = refined(path.nodes, rule_of(kDegrees[level]).lobatto, rule_of(kDegrees[level + 1]).lobatto);
   }
   return c;

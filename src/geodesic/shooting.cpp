@@ -71,7 +71,10 @@ double correctable(const Shot& shot, const Ends& ends, double s, double toleranc
   constexpr double kErrorOfY = 1e-11;
   const double scale = std::min(s, std::abs(shot.state.y) / std::max(1.0, std::abs(shot.state.dy)));
   const double bend = ends.curvature * s;
-  return s * std::min(std::sqrt(kOfTolerance * tolerance * scale / s), kErrorOfY / (bend * bend * bend));
+  const double wanted = std::min(std::sqrt(kOfTolerance * tolerance * scale / s), kErrorOfY / (bend * bend * bend));
+  // The integrator's own error keeps the residual from falling farther than this.
+  constexpr double kNoise = 2.0;
+  return s * std::max(wanted, kNoise * tolerance);
 }
 
 bool leaves(const Surface& surface, const UvBox& reach, const Ends& ends, double length) {

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geodesic/trace.h"
+#include "support/geodesic_oracles.h"
+#include "support/splines.h"
+#include "surface/elementary_surfaces.h"
+#include "surface/forms.h"
+
+namespace geovor {
+namespace {
+
+using namespace testing;
+constexpr double kPi = std::numbers::pi;
+
+BSplineSurface bicubic(int spans, unsigned seed) { return random_spline(3, 3, spans, false, seed).surface(); }
+
+// The second method steps over the knots blindly, with steps so short that their error, second order at a C2 knot and
+// fourth elsewhere, does not count.
+TEST(TraceAcrossKnots, AgreesWithTinyStepsOnABicubic) {
+  const BSplineSurface spline = bicubic(12, 3);
+  std::mt19937 random(1);
+  for (int i = 0; i < 4; ++i) {
+    const Uv p = random_point(random, {{5.0, 7.0}, {5.0, 7.0}});
+    const UvVec d = heading(spline, p, uniform(random, 0.0, 6.0));
+    const TraceResult path = trace_geodesic(spline, p, d, 4.0);
+    ASSERT_EQ(path.status, TraceStatus::Converged);
+    const GeodesicState slow = fine_steps(spline, p, d, 4.0, 200000);
+    EXPECT_LT(gap(spline, path.end.p, slow.p), 5e-11);
+    EXPECT_NEAR(path.end.y, slow.y, 1e-9 * std::max(1.0, std::abs(slow.y)));
+  }
+}
+
+TEST(TraceAcrossKnots, ReturnsToItsStart) {
+  const BSplineSurface spline = random_spline(3, 2, 10, true, 5).surface();
+  std::mt19937 random(2);
+  for (int i = 0; i < 100; ++i) {
+    const Uv p = random_point(random, {{4.0, 6.0}, {4.0, 6.0}});
+    const TraceResult out = trace_geodesic(spline, p, heading(spline, p, uniform(random, 0.0, 6.0)), 2.5);
+    ASSERT_EQ(out.status, TraceStatus::Converged);
+    const TraceResult back = trace_geodesic(spline, out.end.p, -out.end.d, 2.5);
+    EXPECT_LT(gap(spline, back.end.p, p), 1e-10);
+    EXPECT_NEAR(back.end.y, out.end.y, 1e-9 * std::max(1.0, std::abs(out.end.y)));  // Jacobi fields are reciprocal
+  }
+}
+
+TEST(TraceAcrossKnots, IsBlindToAnInsertedKnot) {
+  const SplineData data = random_spline(3, 3, 4, false, 7);
+  const BSplineSurface plain = data.surface(), more = insert_u_knot(insert_u_knot(data, 1.37), 2.6).surface();
+  std::mt19937 random(3);
+  for (int i = 0; i < 50; ++i) {
+    const Uv p = random_point(random, {{1.5, 2.5}, {1.5, 2.5}});
+    const UvVec d = heading(plain, p, uniform(random, 0.0, 6.0));
+    EXPECT_LT(gap(plain, trace_geodesic(plain, p, d, 1.5).end.p, trace_geodesic(more, p, d, 1.5).end.p), 1e-11);
+  }
+}
+
+// On this sheet, even in u - 1 about its knot line u = 1, geodesics that start along the line stay on it, and those
+// that start at a small angle graze it again and again.
+TEST(TraceAcrossKnots, GrazingPathsArriveAndAgreeWithTinySteps) {
+  SplineData data;
+  data.u_knots = {0, 0, 0, 0, 1, 2, 2, 2, 2};
+  data.v_knots = {0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4};
+  const double heights[] = {0.0, 0.3, 0.6, 0.3, 0.0};
+  for (int i = 0; i < data.u_count(); ++i)
+    for (int j = 0; j < data.v_count(); ++j) data.poles.push_back({0.5 * i, j / 1.5, heights[i] * (1.0 + 0.2 * j)});
+  const BSplineSurface ridge = data.surface();
+  for (const double angle : {0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, -1e-9, -1e-3}) {
+    const UvVec d{angle, 1.0};
+    const TraceResult path = trace_geodesic(ridge, {1.0, 0.5}, d, 2.5);
+    ASSERT_EQ(path.status, TraceStatus::Converged) << angle;
+    EXPECT_LT(path.steps, 400) << angle;
+    const GeodesicState slow = fine_steps(ridge, {1.0, 0.5}, d, 2.5, 200000);
+    EXPECT_LT(gap(ridge, path.end.p, slow.p), 1e-10) << angle;
+  }
+}
+
+// Paths that touch a knot line from one side: aimed at it from where they are parallel to it.
+TEST(TraceAcrossKnots, TouchingAKnotLineMakesWay) {
+  const BSplineSurface spline = bicubic(8, 11);
+  const double line = spline.knot_lines().u[3];
+  for (int i = 0; i < 60; ++i) {
+    const Uv touch{line, 2.0 + 0.07 * i};
+    const TraceResult back = trace_geodesic(spline, touch, {0.0, -1.0}, 0.7);
+    ASSERT_EQ(back.status, TraceStatus::Converged);
+    const TraceResult path = trace_geodesic(spline, back.end.p, -back.end.d, 1.4);
+    const TraceResult on = trace_geodesic(spline, touch, {0.0, 1.0}, 0.7);
+    ASSERT_EQ(path.status, TraceStatus::Converged);
+    EXPECT_LT(path.steps, 300);
+    EXPECT_LT(gap(spline, path.end.p, on.end.p), 1e-10);
+  }
+}
+
+TEST(TraceAcrossKnots, StartsOnCornersOfSpans) {
+  const BSplineSurface spline = bicubic(6, 13);
+  for (const double u : spline.knot_lines().u)
+    for (const double v : spline.knot_lines().v)
+      for (int k = 0; k < 8; ++k) {
+        const UvVec d{std::cos(k * kPi / 4.0), std::sin(k * kPi / 4.0)};
+        TraceOptions options;
+        options.stop_at_domain = false;
+        const TraceResult path = trace_geodesic(spline, {u, v}, d, 0.5, options);
+        ASSERT_EQ(path.status, TraceStatus::Converged);
+        const TraceResult back = trace_geodesic(spline, path.end.p, -path.end.d, 0.5, options);
+        EXPECT_LT(gap(spline, back.end.p, {u, v}), 1e-10);
+      }
+}
+
+// Quarter arcs with double knots: the parameterization is C0 by its knots, the shape a torus.
+TEST(TraceAcrossKnots, SplineTorusIsATorus) {
+  const Torus torus({}, 3.0, 1.0);
+  for (const bool periodic : {true, false}) {
+    const BSplineSurface spline = spline_torus(3.0, 1.0, periodic);
+    std::mt19937 random(4);
+    for (int i = 0; i < 30; ++i) {
+      const Uv p = random_point(random, {{1.2, 1.8}, {0.0, 4.0}});
+      const SurfaceJet j = spline.jet(p);
+      const Xyz T = push_forward(j, direction_at_angle(first_form(j), uniform(random, 0.0, 6.0)));
+      const double axis = std::hypot(j.S.x(), j.S.y());
+      const Uv q{std::atan2(j.S.y(), j.S.x()), std::atan2(j.S.z(), axis - 3.0)};
+      TraceOptions options;
+      options.stop_at_domain = false;
+      const TraceResult a = trace_geodesic(spline, p, tangent_components(j, T), 3.0, options);
+      const TraceResult b = trace_geodesic(torus, q, tangent_components(torus.jet(q), T), 3.0, options);
+      ASSERT_EQ(a.status, TraceStatus::Converged);
+      if (!periodic && (a.end.p.u < 0.0 || a.end.p.u > 4.0 || a.end.p.v < 0.0 || a.end.p.v > 4.0)) continue;
+      EXPECT_LT((spline.position(a.end.p) - torus.position(b.end.p)).norm(), 1e-10);
+      EXPECT_NEAR(a.end.y, b.end.y, 1e-9);
+    }
+  }
+}
+
+// From the disk over the rim onto the side: the angle to the rim is kept, and the Jacobi field is the spread of
+// neighbouring paths.
+TEST(TraceAcrossKnots, CreaseRefractsStraightAndBendsTheJacobiField) {
+  const Can can(1.0);
+  const Uv p{0.0, 0.5};
+  const auto end = [&](double t) { return trace_geodesic(can, p, heading(can, p, t), 1.5); };
+  for (const double t : {1.3, 1.57, 1.9}) {
+    const TraceResult path = end(t);
+    ASSERT_EQ(path.status, TraceStatus::Converged);
+    ASSERT_GT(path.end.p.v, 1.0);
+    // In the plane: p = (0.5, 0), heading (sin t, cos t) as e1 is along the circle and e2 outwards.
+    const double b = 0.5 * std::sin(t), run = -b + std::sqrt(b * b + 0.75);
+    const double x = 0.5 + run * std::sin(t), y = run * std::cos(t);
+    const double radial = x * std::sin(t) + y * std::cos(t), round = x * std::cos(t) - y * std::sin(t);
+    EXPECT_NEAR(path.end.p.v, 1.0 + (1.5 - run) * radial, 1e-11);
+    EXPECT_NEAR(path.end.p.u, std::atan2(y, x) + (1.5 - run) * round, 1e-11);
+    const Xyz spread = central_difference([&](double a) { return can.position(end(a).end.p); }, t, 1e-3);
+    EXPECT_NEAR(std::abs(path.end.y), spread.norm(), 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace geovor
