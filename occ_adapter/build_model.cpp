@@ -20,6 +20,11 @@ constexpr double kLooseTolerance = 1e-3;
 // OpenCASCADE raises an error for a location that scales; only rounding of a rotation matrix may remain.
 constexpr double kScaleRounding = 1e-9;
 
+// Places at which the distance between an edge and its image on a surface is measured: the distance swings about as
+// often as the curve has pieces.
+constexpr int kSamplesAlone = 24;
+constexpr int kSamplesPerPiece = 6;
+
 std::string number(double x) {
   std::ostringstream text;
   text.precision(3);
@@ -142,7 +147,10 @@ class ModelBuilder {
         face.problems.push_back("a border loop does not close in the parameter plane (gap " + number(loop.gap) + ")");
       }
       TrimLoop made;
-      for (const OccCoedge& coedge : loop.coedges) made.coedges.push_back(build_coedge(coedge));
+      for (const OccCoedge& coedge : loop.coedges) {
+        made.coedges.push_back(build_coedge(coedge));
+        measure(*face.surface, made.coedges.back());
+      }
       face.loops.push_back(std::move(made));
     }
   }
@@ -154,6 +162,28 @@ class ModelBuilder {
     made.range = {coedge.first, coedge.last};
     made.reversed = coedge.reversed;
     return made;
+  }
+
+  /// Files promise more than they keep: an edge's tolerance is at least what separates its curve from the surface.
+  void measure(const Surface& surface, const Coedge& coedge) {
+    CadEdge& edge = model_.edges[static_cast<std::size_t>(coedge.edge)];
+    if (edge.degenerate() || !coedge.pcurve) return;
+    std::vector<double> stops = edge.curve->breaks(edge.range);
+    const std::vector<double> more = coedge.pcurve->breaks(coedge.range);
+    stops.insert(stops.end(), more.begin(), more.end());
+    stops.push_back(edge.range.hi);
+    std::sort(stops.begin(), stops.end());
+    double from = edge.range.lo;
+    for (const double to : stops) {
+      const int count = stops.size() == 1 ? kSamplesAlone : kSamplesPerPiece;
+      for (int i = 0; i <= count; ++i) {
+        const double t = from + (to - from) * i / count;
+        const Eigen::Vector2d uv = coedge.pcurve->position(t);
+        const double distance = (edge.curve->position(t) - surface.position({uv.x(), uv.y()})).norm();
+        edge.tolerance = std::max(edge.tolerance, distance);
+      }
+      from = to;
+    }
   }
 
   void judge_tolerances(CadFace& face) const {
