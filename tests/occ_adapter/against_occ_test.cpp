@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "occ_adapter/corpus.h"
@@ -17,6 +18,19 @@
 
 namespace geovor {
 namespace {
+
+/// A file as the adapter reads it and as OpenCASCADE does; read once for all tests of this program.
+struct Pair {
+  CadModel model;
+  std::vector<TopoDS_Face> faces;
+};
+
+const Pair& pair_of(const std::string& path) {
+  static std::map<std::string, Pair> read;
+  const auto found = read.find(path);
+  if (found != read.end()) return found->second;
+  return read[path] = {read_cad(path), test::faces_of(test::read_by_occ(path))};
+}
 
 class AgainstOcc : public testing::TestWithParam<std::string> {};
 
@@ -75,8 +89,7 @@ void expect_same_jet(const Surface& surface, const Handle(Geom_Surface) & occ, U
 TEST_P(AgainstOcc, JetsAreThoseOfTheFileAtRandomPoints) {
   const std::string path = test::shared_file(GetParam());
   SKIP_WITHOUT(path);
-  const CadModel model = read_cad(path);
-  const std::vector<TopoDS_Face> faces = test::faces_of(test::read_by_occ(path));
+  const auto& [model, faces] = pair_of(path);
   ASSERT_EQ(model.faces.size(), faces.size());
   std::mt19937 random(20240607);
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -113,8 +126,7 @@ bool has_coedge(const CadFace& face, const Geom2d_Curve& pcurve, double first, d
 TEST_P(AgainstOcc, EveryUseOfAnEdgeIsACoedgeWithItsCurve) {
   const std::string path = test::shared_file(GetParam());
   SKIP_WITHOUT(path);
-  const CadModel model = read_cad(path);
-  const std::vector<TopoDS_Face> faces = test::faces_of(test::read_by_occ(path));
+  const auto& [model, faces] = pair_of(path);
   ASSERT_EQ(model.faces.size(), faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     SCOPED_TRACE("Face" + std::to_string(i + 1));
@@ -168,8 +180,7 @@ Winding winding(const CadFace& face, const UvBox& box, Uv p) {
 TEST_P(AgainstOcc, LoopsTurnOnceAboutEveryPointOfTheFace) {
   const std::string path = test::shared_file(GetParam());
   SKIP_WITHOUT(path);
-  const CadModel model = read_cad(path);
-  const std::vector<TopoDS_Face> faces = test::faces_of(test::read_by_occ(path));
+  const auto& [model, faces] = pair_of(path);
   ASSERT_EQ(model.faces.size(), faces.size());
   std::mt19937 random(77);
   int inside = 0;
@@ -192,7 +203,7 @@ TEST_P(AgainstOcc, LoopsTurnOnceAboutEveryPointOfTheFace) {
 TEST_P(AgainstOcc, EdgesLieOnTheirSurfacesWithinTheirTolerance) {
   const std::string path = test::shared_file(GetParam());
   SKIP_WITHOUT(path);
-  const CadModel model = read_cad(path);
+  const CadModel& model = pair_of(path).model;
   for (const CadFace& face : model.faces) {
     SCOPED_TRACE("Face" + std::to_string(face.number));
     for (const TrimLoop& loop : face.loops) {
