@@ -18,6 +18,8 @@ constexpr double kSlack = 1.3;
 constexpr double kLargestTurn = std::numbers::pi / 5;
 // Pieces into which an edge's image on the surface is cut to measure its length.
 constexpr int kPieces = 4;
+// Of two edges the longer one is longer by this share at least, so that a path of equal edges ends.
+constexpr double kLonger = 1e-6;
 // A face that wants more vertices than this is asking for a mistake in the units.
 constexpr int kMostVertices = 4'000'000;
 
@@ -48,7 +50,9 @@ class Builder {
   void halve_edges();
   void consider(int edge);
   PlaneVertex make_vertex(Uv uv, double h_bound) const;
-  double image_length(Uv a, Uv b) const;
+  double image_length(int edge) const;
+  int end_of_longest_path(int edge) const;
+  void halve(int edge);
   Scaffold sew() const;
 
   const CadFace& face_;
@@ -114,7 +118,8 @@ bool Builder::triangulate() {
   return true;
 }
 
-double Builder::image_length(Uv a, Uv b) const {
+double Builder::image_length(int edge) const {
+  const Uv a = vertices_[mesh_.origin(edge)].uv, b = vertices_[mesh_.target(edge)].uv;
   double sum = 0.0;
   Xyz last = probe_.position(a);
   for (int i = 1; i <= kPieces; ++i) {
@@ -128,7 +133,7 @@ double Builder::image_length(Uv a, Uv b) const {
 void Builder::consider(int edge) {
   if (mesh_.twin(edge) == HalfEdges::kNone) return;
   const PlaneVertex &a = vertices_[mesh_.origin(edge)], &b = vertices_[mesh_.target(edge)];
-  const double length = image_length(a.uv, b.uv);
+  const double length = image_length(edge);
   const double h = std::min({a.h, b.h, rule_.size});
   const Xyz middle = probe_.at(lerp(a.uv, b.uv, 0.5)).n;
   const double cosine = std::min(
@@ -145,23 +150,51 @@ void Builder::halve_edges() {
   for (int e = 0; e < 3 * mesh_.triangle_count(); ++e) {
     if (e < mesh_.twin(e)) consider(e);
   }
-  while (!queue_.empty()) {
+  while (!queue_.empty() && result_.why.empty()) {
     const Candidate c = queue_.top();
     queue_.pop();
     if (mesh_.origin(c.edge) != c.a || mesh_.target(c.edge) != c.b) continue;
-    if (mesh_.vertex_count() >= kMostVertices) {
-      result_.why = "it wants more than " + std::to_string(kMostVertices) + " vertices";
-      return;
+    const int longest = end_of_longest_path(c.edge);
+    halve(longest);
+    if (longest != c.edge && mesh_.origin(c.edge) == c.a && mesh_.target(c.edge) == c.b) queue_.push(c);
+  }
+}
+
+// From triangle to triangle, always on to a longer edge: halving the last one first keeps the triangles from
+// degenerating (Rivara's longest-edge propagation path), and a short edge beside a long one from being halved for ever.
+int Builder::end_of_longest_path(int edge) const {
+  double length = image_length(edge);
+  for (bool found = true; found;) {
+    found = false;
+    const int twin = mesh_.twin(edge);
+    for (int e : {HalfEdges::next(edge), HalfEdges::prev(edge), HalfEdges::next(twin), HalfEdges::prev(twin)}) {
+      if (mesh_.twin(e) == HalfEdges::kNone) continue;
+      const double other = image_length(e);
+      if (other > length * (1.0 + kLonger)) {
+        length = other;
+        edge = e;
+        found = true;
+      }
     }
-    const PlaneVertex &a = vertices_[c.a], &b = vertices_[c.b];
-    const double bound = std::max(a.h, b.h) + rule_.gradation * 0.5 * image_length(a.uv, b.uv);
-    PlaneVertex middle = make_vertex(lerp(a.uv, b.uv, 0.5), bound);
-    const int v = mesh_.add_vertex();
-    vertices_.push_back(middle);
-    mesh_.split_edge(c.edge, v);
-    for (int e : mesh_.star(v)) {
-      consider(e);
-    }
+  }
+  return edge;
+}
+
+void Builder::halve(int edge) {
+  if (mesh_.vertex_count() >= kMostVertices) {
+    result_.why =
+        "it wants more than " + std::to_string(kMostVertices) + " vertices; a larger --size or --min-size would do";
+    return;
+  }
+  const PlaneVertex &a = vertices_[mesh_.origin(edge)], &b = vertices_[mesh_.target(edge)];
+  const PlaneVertex middle =
+      make_vertex(lerp(a.uv, b.uv, 0.5), std::max(a.h, b.h) + rule_.gradation * 0.5 * image_length(edge));
+  const int v = mesh_.add_vertex();
+  vertices_.push_back(middle);
+  mesh_.split_edge(edge, v);
+  for (int e : mesh_.star(v)) {  // the edges opposite to v have new numbers: their old entries are dead
+    consider(e);
+    consider(HalfEdges::next(e));
   }
 }
 
