@@ -1,11 +1,15 @@
 // One patch under four parameterizations: what is measured on it may not depend on which one is asked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "brep/face_domain.h"
 #include "geodesic/distance.h"
+#include "samples/diagram_facts.h"
 #include "samples/sample_files.h"
+#include "voronoi/diagram_builder.h"
 
 namespace geovor::testing {
 namespace {
@@ -63,6 +67,35 @@ TEST_P(ParameterizedSample, HasTheDistancesOfTheOriginal) {
     ASSERT_EQ(here.status, ConnectStatus::Converged) << p.u << " " << p.v << " to " << q.u << " " << q.v;
     ASSERT_EQ(there.status, ConnectStatus::Converged) << p.u << " " << p.v << " to " << q.u << " " << q.v;
     EXPECT_NEAR(here.length, there.length, 1e-10 * here.length) << p.u << " " << p.v << " to " << q.u << " " << q.v;
+  }
+}
+
+/// The vertices of the diagram of six sites (given on the original), in the order of the sites that they belong to.
+std::vector<DiagramVertex> diagram_vertices(const char* file, Uv (*map)(Uv)) {
+  const CadModel& model = sample(file);
+  const FaceDomain original(sample(kOriginal), sample(kOriginal).faces[0], 1e-5 * model.diagonal());
+  std::vector<Uv> sites;
+  for (const Uv site : spread_sites(original, 6)) sites.push_back(map(site));
+  std::vector<DiagramVertex> vertices =
+      build_diagram(FaceDomain(model, model.faces[0], 1e-5 * model.diagonal()), sites).vertices;
+  for (DiagramVertex& vertex : vertices) std::sort(vertex.sites.begin(), vertex.sites.end());
+  std::sort(vertices.begin(), vertices.end(), [](const DiagramVertex& a, const DiagramVertex& b) {
+    constexpr double kApart = 1e-3;  // mm: two vertices of the same sites are farther apart than this
+    if (a.sites != b.sites) return a.sites < b.sites;
+    return std::abs(a.xyz.x() - b.xyz.x()) > kApart ? a.xyz.x() < b.xyz.x() : a.xyz.y() < b.xyz.y();
+  });
+  return vertices;
+}
+
+TEST_P(ParameterizedSample, HasTheDiagramOfTheOriginal) {
+  const auto here = diagram_vertices(kOriginal, [](Uv p) { return p; });
+  const auto there = diagram_vertices(GetParam().file, GetParam().map);
+  ASSERT_EQ(here.size(), there.size());
+  EXPECT_GT(here.size(), 6u);
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    EXPECT_EQ(here[i].sites, there[i].sites);
+    EXPECT_LT((here[i].xyz - there[i].xyz).norm(), 1e-9 * sample(kOriginal).diagonal()) << "vertex " << i;
+    EXPECT_NEAR(here[i].radius, there[i].radius, 1e-9 * here[i].radius) << "vertex " << i;
   }
 }
 
