@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "voronoi/cell_areas.h"
 #include "voronoi/cells.h"
 #include "voronoi/chain_tracer.h"
 #include "voronoi/label_changes.h"
@@ -322,6 +323,7 @@ VoronoiDiagram build_diagram(const FaceDomain& domain, const std::vector<Uv>& si
   const double spacing = options.spacing > 0.0 ? options.spacing : default_spacing(domain, sites.size());
   DiagramBuilder builder(domain, sites, tolerance, spacing);
   VoronoiDiagram diagram = builder.build();
+  measure_cells(domain.surface(), diagram);
   recompute_residuals(domain.surface(), diagram);
   warn_of_paths_that_leave(domain, diagram);
   return diagram;

@@ -47,7 +47,8 @@ class RivalWatch {
   std::vector<int> corners_seen_;
 };
 
-/// Smallest value, at sampled interior points, of the cubic with values g0, g1 and slopes s0, s1 at the ends of a step h.
+/// Smallest value, at sampled interior points, of the cubic with values g0, g1 and slopes s0, s1 at the ends of a step
+/// h.
 double cubic_minimum(double g0, double s0, double g1, double s1, double h);
 
 /// Differences of distances below this part of the radius are rounding: a few times kBisectorTolerance.

@@ -91,8 +91,7 @@ std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim) const {
     TraceOptions options;
     options.stop_at_domain = false;
     if (i == 0) options.tolerance = kCoarseShot;
-    const TraceResult shot =
-        trace_geodesic(surface_, sites_[site], direction_at_angle(at_site, aim.t), aim.s, options);
+    const TraceResult shot = trace_geodesic(surface_, sites_[site], direction_at_angle(at_site, aim.t), aim.s, options);
     if (shot.status != TraceStatus::Converged) return std::nullopt;
     SiteRay ray{site, aim, shot.end.p, {}, {}, {}, shot.end.y};
     set_frame(surface_.jet(shot.end.p), shot.end.d, ray);

@@ -1,0 +1,101 @@
+#include "pipeline/voronoi_face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "brep/face_domain.h"
+#include "surface/project.h"
+#include "voronoi/diagram_builder.h"
+#include "voronoi/lattice.h"
+#include "voronoi/place_sites.h"
+
+namespace geovor {
+namespace {
+
+// The border's polyline lies within this part of the face's size.
+constexpr double kBorderDeflection = 1e-6;
+
+// A site given in space may lie off the face by the face's tolerance, but rounding of printed coordinates is forgiven
+// too.
+constexpr double kPrintedCoordinates = 1e-6;
+
+// Areas of the cells and the face agree to this where all is well.
+constexpr double kAreasAgree = 1e-4;
+
+// Patches of a picture: some 4 units high on a usual page.
+constexpr int kRasterRows = 160;
+constexpr int kRasterColumns = 48;
+
+constexpr double kFaceTolerance = 1e-7;  // OpenCASCADE's Precision::Confusion
+
+std::string text(double x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", x);
+  return buffer;
+}
+
+Uv locate(const FaceDomain& domain, int index, const Xyz& x, double tolerance, bool snap) {
+  const Projection p = project(domain.surface(), x, domain.box());
+  if (!snap && !(p.distance <= tolerance)) {
+    throw SiteError(index, -1, "lies off the face by " + text(p.distance) + "; move it onto the face, or snap it");
+  }
+  return domain.to_principal(p.uv);
+}
+
+std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request, double tolerance) {
+  std::vector<Uv> sites;
+  for (int i = 0; i < static_cast<int>(request.sites.size()); ++i) {
+    if (const Uv* uv = std::get_if<Uv>(&request.sites[i])) {
+      sites.push_back(is_finite(*uv) ? domain.to_principal(*uv) : *uv);
+    } else {
+      sites.push_back(locate(domain, i, std::get<Xyz>(request.sites[i]), tolerance, request.snap));
+    }
+  }
+  if (!sites.empty()) return sites;
+  int count = request.count;
+  if (count == 0 && request.spacing > 0.0) {
+    // A hexagonal arrangement with this distance between neighbours.
+    const double cell = 0.5 * std::numbers::sqrt3 * request.spacing * request.spacing;
+    count = std::max(1, static_cast<int>(std::lround(rough_area(domain) / cell)));
+  }
+  if (count <= 0) throw Error(ErrorCode::Usage, "no sites; give some, or a positive number of them");
+  return place_sites(domain, count, request.seed);
+}
+
+void check_areas(const FaceDomain& domain, double face_area, VoronoiDiagram& diagram) {
+  if (diagram.cells.size() == 1 && diagram.cells[0].loops.empty()) diagram.cells[0].area = face_area;
+  double sum = 0.0;
+  for (const DiagramCell& cell : diagram.cells) sum += cell.area;
+  if (std::abs(sum - face_area) <= kAreasAgree * face_area) return;
+  diagram.warnings.push_back({"unresolved",
+                              {},
+                              {domain.box().u.middle(), domain.box().v.middle()},
+                              "the areas of the cells add up to " + text(sum / face_area) + " of the face's"});
+}
+
+}  // namespace
+
+VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const VoronoiRequest& request) {
+  if (!face.surface) {
+    throw Error(ErrorCode::FaceRejected, face.problems.empty() ? "the face has no surface" : face.problems.front());
+  }
+  const double deflection = std::max(kBorderDeflection * model.diagonal(), kFaceTolerance);
+  const FaceDomain domain(model, face, deflection);
+  const double tolerance = std::max({face.tolerance, kFaceTolerance, kPrintedCoordinates * face_size(domain)});
+  VoronoiResult result;
+  const std::vector<Uv> sites = sites_of(domain, request, tolerance);
+  check_sites(domain, sites, tolerance);
+  VoronoiOptions options;
+  options.tolerance = request.tolerance;
+  result.diagram = build_diagram(domain, sites, options);
+  result.face_area = face_area(model, face).value;
+  check_areas(domain, result.face_area, result.diagram);
+  result.dual = dual_of(domain.surface(), result.diagram);
+  result.surface = face.surface;
+  result.parameters = domain.box();
+  result.raster = raster_of_cells(domain, result.diagram, kRasterRows, kRasterColumns);
+  return result;
+}
+
+}  // namespace geovor

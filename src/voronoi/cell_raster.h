@@ -1,0 +1,30 @@
+// A face cut into small patches, each within one cell: what pictures of a diagram are painted with.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "brep/face_domain.h"
+#include "voronoi/diagram.h"
+
+namespace geovor {
+
+/// Four corners, counter-clockwise in the parameter plane.
+struct CellPatch {
+  std::array<Uv, 4> uv;
+  std::array<Xyz, 4> xyz;
+  int site = -1;
+};
+
+struct CellRaster {
+  UvBox box;  ///< around the face
+  std::vector<CellPatch> patches;
+  std::vector<std::vector<Uv>> border_uv;  ///< polylines of the face's border, seams and poles left out
+  std::vector<std::vector<Xyz>> border;
+};
+
+/// Rows of constant v, cut where they meet the edges, the border and the columns. For the eye: a patch may reach beyond
+/// the cell by a part of a row.
+CellRaster raster_of_cells(const FaceDomain& domain, const VoronoiDiagram& diagram, int rows, int columns);
+
+}  // namespace geovor
