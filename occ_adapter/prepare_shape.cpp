@@ -1,5 +1,4 @@
 // Healing, only where it is needed: a face that is replaced costs time and may stop sharing edges with its neighbours.
-#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <Precision.hxx>
@@ -59,24 +58,6 @@ void complete_edges(const TopoDS_Face& face) {
 
 bool has_wire(const TopoDS_Face& face) { return TopExp_Explorer(face, TopAbs_WIRE).More(); }
 
-/// The face with the natural borders of its surface, seam and poles included.
-TopoDS_Shape with_natural_bounds(const TopoDS_Face& face) {
-  TopLoc_Location location;
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, location);
-  double u0, u1, v0, v1;
-  surface->Bounds(u0, u1, v0, v1);
-  for (const double end : {u0, u1, v0, v1}) {
-    if (Precision::IsInfinite(end)) return {};
-  }
-  BRepBuilderAPI_MakeFace make(surface, u0, u1, v0, v1, Precision::Confusion());
-  if (!make.IsDone()) return {};
-  TopoDS_Shape made = make.Face();
-  made.Location(location);
-  // MakeFace may turn the face of a mirrored surface; the wires are read with the face forward either way.
-  made.Orientation(face.Orientation());
-  return made;
-}
-
 /// OpenCASCADE's face healing with what concerns loops in the parameter plane: order, seams, poles, natural bounds.
 TopoDS_Shape healed(const TopoDS_Face& face, const Handle(ShapeBuild_ReShape) & context) {
   const Handle(ShapeFix_Face) fix = new ShapeFix_Face(face);
@@ -102,12 +83,6 @@ class Healer {
   /// Heals one face; returns what was done, empty for nothing.
   std::string heal(const TopoDS_Face& face) {
     if (BRep_Tool::Surface(face).IsNull() || context_->IsRecorded(face)) return {};
-    if (!has_wire(face)) {
-      const TopoDS_Shape bounded = with_natural_bounds(face);
-      if (bounded.IsNull()) return {};
-      context_->Replace(face, bounded);
-      return "had no border: the natural border of its surface was taken";
-    }
     complete_edges(face);
     const OccTrims trims = extract_trims(face);
     const bool inside_out = trims.turned && unwrapped(BRep_Tool::Surface(face))->DynamicType()->Name() != plane_;
@@ -115,6 +90,7 @@ class Healer {
     const Handle(ShapeBuild_ReShape) trial = new ShapeBuild_ReShape;
     if (!sound(healed(face, trial)) && trims.sound()) return {};
     context_->Replace(face, healed(face, context_));
+    if (!has_wire(face)) return "had no border: the natural border of its surface was taken";
     return trims.sound() ? "had a border that ran the wrong way: healed" : "had a border that did not close: healed";
   }
 

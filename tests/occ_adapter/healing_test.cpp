@@ -21,6 +21,7 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
@@ -111,6 +112,22 @@ TopoDS_Edge circle_at(const Handle(Geom_CylindricalSurface) & cylinder, double v
   return closed_edge(cylinder->VIso(v), new Geom2d_Line(gp_Pnt2d(0, v), gp_Dir2d(1, 0)), cylinder);
 }
 
+/// A closed edge known by its p-curve of period 2 pi.
+TopoDS_Edge edge_on(const Handle(Geom_Surface) & surface, const Handle(Geom2d_Curve) & pcurve) {
+  BRep_Builder builder;
+  TopoDS_Vertex vertex;
+  const gp_Pnt2d start = pcurve->Value(0.0);
+  builder.MakeVertex(vertex, surface->Value(start.X(), start.Y()), 1e-7);
+  TopoDS_Edge edge;
+  builder.MakeEdge(edge);
+  builder.UpdateEdge(edge, pcurve, surface, TopLoc_Location(), 1e-7);
+  builder.Add(edge, vertex.Oriented(TopAbs_FORWARD));
+  builder.Add(edge, vertex.Oriented(TopAbs_REVERSED));
+  builder.Range(edge, 0.0, 2 * pi);
+  BRepLib::BuildCurve3d(edge);
+  return edge;
+}
+
 TEST(Healing, CylinderWithoutSeamGetsOne) {
   const Handle(Geom_CylindricalSurface) cylinder = new Geom_CylindricalSurface(kAxes, 2.0);
   TopoDS_Face face = bare_face(cylinder);
@@ -134,6 +151,22 @@ TEST(Healing, SurfaceWithoutBorderGetsItsNaturalOne) {
             2);
 }
 
+TEST(Healing, TorusWithoutBorderGetsItsTwoSeams) {
+  const CadModel model = model_of(bare_face(new Geom_ToroidalSurface(kAxes, 4.0, 1.0)));
+  ASSERT_NE(model.faces[0].surface, nullptr);
+  EXPECT_NEAR(uv_area(model.faces[0]), 4 * pi * pi, 1e-9);
+  EXPECT_TRUE(model.shells[0].closed);
+}
+
+TEST(Healing, SphereBorderedByAHoleAloneIsTheSphereWithoutIt) {
+  const Handle(Geom_SphericalSurface) sphere = new Geom_SphericalSurface(kAxes, 4.0);
+  const gp_Ax22d centre(gp_Pnt2d(2, 0.3), gp_Dir2d(1, 0), gp_Dir2d(0, 1));
+  TopoDS_Face face = bare_face(sphere);
+  add_wire(face, edge_on(sphere, new Geom2d_Circle(centre, 0.5)).Reversed());
+  const CadModel model = model_of(face);
+  EXPECT_NEAR(uv_area(model.faces[0]), 2 * pi * pi - 0.25 * pi, 1e-5);
+}
+
 TEST(Healing, EndlessPlaneWithoutBorderIsRejected) {
   const CadModel model = model_of(bare_face(new Geom_Plane(kAxes)));
   EXPECT_EQ(model.faces[0].surface, nullptr);
@@ -153,21 +186,13 @@ TEST(Healing, ClockwiseBorderOnAPlaneIsTurnedRound) {
 TEST(Healing, HoleOnePeriodAwayComesBackIntoTheFace) {
   const Handle(Geom_CylindricalSurface) cylinder = new Geom_CylindricalSurface(kAxes, 2.0);
   TopoDS_Face face = BRepBuilderAPI_MakeFace(cylinder, 0.0, 2 * pi, 0.0, 5.0, 1e-7).Face();
-  const Handle(Geom2d_Circle) hole =
+  const Handle(Geom2d_Curve) hole =
       new Geom2d_Circle(gp_Ax22d(gp_Pnt2d(3 + 2 * pi, 2), gp_Dir2d(1, 0), gp_Dir2d(0, 1)), 0.5);
-  BRep_Builder builder;
-  TopoDS_Vertex vertex;
-  builder.MakeVertex(vertex, cylinder->Value(3.5, 2), 1e-7);
-  TopoDS_Edge edge;
-  builder.MakeEdge(edge);
-  builder.UpdateEdge(edge, hole, cylinder, TopLoc_Location(), 1e-7);
-  builder.Add(edge, vertex.Oriented(TopAbs_FORWARD));
-  builder.Add(edge, vertex.Oriented(TopAbs_REVERSED));
-  builder.Range(edge, 0.0, 2 * pi);
-  BRepLib::BuildCurve3d(edge);
-  add_wire(face, edge.Reversed());
+  add_wire(face, edge_on(cylinder, hole).Reversed());
   const CadModel model = model_of(face);
   ASSERT_EQ(model.faces[0].loops.size(), 2u);
+  // A shift is enough; OpenCASCADE's healing would make another face.
+  EXPECT_THAT(model.faces[0].problems, testing::Not(testing::Contains(HasSubstr("healed"))));
   EXPECT_NEAR(uv_area(model.faces[0]), 2 * pi * 5.0 - 0.25 * pi, 1e-5);
   for (const TrimLoop& loop : model.faces[0].loops) {
     for (const Coedge& coedge : loop.coedges) {

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "occ_adapter/corpus.h"
+#include "occ_adapter/occ_write_private.h"
 #include "occ_adapter/read_cad.h"
 #include "occ_adapter/write_step.h"
 
@@ -118,6 +119,10 @@ TEST_F(WriteStep, TetrahedronIsAValidSolidOfItsVolume) {
 TEST_F(WriteStep, CubeTurnedInsideOutIsStillPositive) {
   TriangleMesh mesh = cube({5, 0, 0});
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  // Before the writer and the reader, which turn solids themselves.
+  const TopoDS_Shape built = occ::facet_shape(mesh);
+  EXPECT_TRUE(BRepCheck_Analyzer(built).IsValid());
+  EXPECT_NEAR(volume(built), 1.0, 1e-12);
   const TopoDS_Shape read = round_trip(mesh);
   EXPECT_TRUE(BRepCheck_Analyzer(read).IsValid());
   EXPECT_NEAR(volume(read), 1.0, 1e-12);
