@@ -151,6 +151,7 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
     next_h_ = h * (regular && factor > kShrink ? factor : kShrink);  // kShrink also for NaN
     return next_h_ > kSmallestStep * length_ ? TraceStatus::Converged : TraceStatus::DegenerateMetric;
   }
+  worst_error_ = std::max(worst_error_, error);
   // A step cut short by a border or the end says little about how long one may be.
   next_h_ = std::max(h * std::min(factor, kGrow), h < next_h_ ? next_h_ : 0.0);
 

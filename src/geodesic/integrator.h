@@ -22,6 +22,9 @@ class GeodesicIntegrator {
   int steps() const { return steps_; }
   int evaluations() const { return evaluations_; }
 
+  /// The tolerance that the steps so far would have met: where one step covers the path, often far below the one asked.
+  double tolerance_met() const { return worst_error_ * options_.tolerance; }
+
   /// Smallest box of the parameter plane that holds the path so far (to the accuracy of a cubic on each step).
   const UvBox& reach() const { return reach_; }
 
@@ -50,6 +53,7 @@ class GeodesicIntegrator {
   double next_h_ = 0.0;            ///< that the error control proposes
   double cap_;                     ///< the next step alone may not be longer: a border is known to lie there
   double covered_ = 0.0;
+  double worst_error_ = 0.0;  ///< of an accepted step, in parts of what it was allowed
   int steps_ = 0;
   int evaluations_ = 0;
   UvBox reach_;

@@ -14,8 +14,13 @@ constexpr double kShortest = 0.25;
 constexpr double kLongest = 2.0;
 
 // While the shot is still off, the integrator's error only has to stay below what Newton's step will leave.
-constexpr double kLoosest = 1e-4;
+constexpr double kLoosest = 1e-5;
 constexpr double kBelowResidual = 0.03;
+constexpr double kNearlyThere = 1e-7;  // from here on the finest tolerance at once costs less than one more shot
+constexpr double kTrueError = 0.1;     // of the integrator, in parts of its tolerance: no step lands closer than that
+
+// Residuals differ by this many tolerances without telling anything.
+constexpr double kNoise = 2.0;
 
 // Share of the tolerance that the integrator may use; the rest is for the last correction.
 constexpr double kIntegratorShare = 0.5;
@@ -26,6 +31,7 @@ struct Shot {
   Xyz tangent, across;      // unit vectors at the end, across = n x tangent
   double a = 0.0, b = 0.0;  // what is missing to the target, along the two
   double residual = 0.0;
+  double tolerance = 0.0;  // that the integrator met, at least the one asked for
   UvBox reach;
 };
 
@@ -39,6 +45,7 @@ Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance,
   shot.status = path.advance(aim.s);
   shot.state = path.state();
   shot.reach = path.reach();
+  shot.tolerance = std::min(path.tolerance_met(), tolerance);
   const SurfaceJet j = path.jet();
   evaluations += path.evaluations() + 1;
   shot.tangent = push_forward(j, shot.state.d).normalized();
@@ -72,8 +79,6 @@ double correctable(const Shot& shot, const Ends& ends, double s, double toleranc
   const double scale = std::min(s, std::abs(shot.state.y) / std::max(1.0, std::abs(shot.state.dy)));
   const double bend = ends.curvature * s;
   const double wanted = std::min(std::sqrt(kOfTolerance * tolerance * scale / s), kErrorOfY / (bend * bend * bend));
-  // The integrator's own error keeps the residual from falling farther than this.
-  constexpr double kNoise = 2.0;
   return s * std::max(wanted, kNoise * tolerance);
 }
 
@@ -135,18 +140,18 @@ Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const Co
     last.residual = shot.residual;
     last.iterations = i;
     if (shot.status == TraceStatus::DegenerateMetric) last.status = ConnectStatus::DegenerateMetric;
-    const bool finest_used = tolerance <= finest;
-    if (finest_used && shot.residual <= correctable(shot, ends, aim.s, options.tolerance)) {
+    if (shot.tolerance <= finest && shot.residual <= correctable(shot, ends, aim.s, options.tolerance)) {
       last = corrected(surface, ends, aim, shot);
       last.iterations = i;
       break;
     }
-    // Rounding may keep the residual from falling any more once the tolerance has become finer.
+    // A residual is known to the integrator's tolerance only: below that it need not fall.
     if (shot.status == TraceStatus::Converged && shot.residual < best) {
-      best = shot.residual;
+      best = std::max(shot.residual, kNoise * shot.tolerance * aim.s);
       step = limited(newton_step(shot), aim.s);
       const double relative = shot.residual / aim.s;
-      tolerance = std::clamp(kBelowResidual * relative * relative, finest, std::max(kLoosest, finest));
+      const double wanted = kBelowResidual * std::max(relative * relative, kTrueError * shot.tolerance);
+      tolerance = wanted < kNearlyThere ? finest : std::clamp(wanted, finest, std::max(kLoosest, finest));
     } else {
       aim = {aim.s - step.s, aim.t - step.t};
       step = {0.5 * step.s, 0.5 * step.t};
