@@ -1,6 +1,7 @@
 // geovor info: what is in a CAD file, one row a face.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -51,13 +52,23 @@ std::string shells_text(const CadModel& model) {
   return fmt::format("{} ({} closed)", model.shells.size(), closed);
 }
 
+/// A coordinate for people: rounding errors about zero are not shown.
+double shown(double coordinate, const CadModel& model) {
+  constexpr double kRounding = 1e-12;  // of the diagonal: a few thousand times the rounding of one coordinate
+  return std::abs(coordinate) < kRounding * model.diagonal() ? 0.0 : coordinate;
+}
+
+std::string corner_text(const Xyz& corner, const CadModel& model) {
+  return fmt::format("{:.8g} {:.8g} {:.8g}", shown(corner.x(), model), shown(corner.y(), model),
+                     shown(corner.z(), model));
+}
+
 void print_table(const CadModel& model, const std::vector<FaceFacts>& faces) {
   fmt::print("file      {}\n", model.file);
   fmt::print("unit      {}\n", model.unit);
   fmt::print("faces     {}\n", model.faces.size());
   fmt::print("shells    {}\n", shells_text(model));
-  fmt::print("box       {:.8g} {:.8g} {:.8g} to {:.8g} {:.8g} {:.8g}\n", model.lower.x(), model.lower.y(),
-             model.lower.z(), model.upper.x(), model.upper.y(), model.upper.z());
+  fmt::print("box       {} to {}\n", corner_text(model.lower, model), corner_text(model.upper, model));
   fmt::print("diagonal  {:.8g}\n", model.diagonal());
   for (const std::string& warning : model.warnings) fmt::print("warning   {}\n", warning);
   fmt::print("\n");
@@ -123,13 +134,13 @@ void print_json(const CadModel& model, const std::vector<FaceFacts>& faces) {
 
 }  // namespace
 
-int run(const InfoRequest& request) {
-  const CadModel model = in_context(request.input, [&] { return read_cad(request.input); });
+int run(const InfoArguments& arguments) {
+  const CadModel model = in_context(arguments.input, [&] { return read_cad(arguments.input); });
   std::vector<FaceFacts> faces(model.faces.size());
   for_each_on(0)(static_cast<int>(faces.size()), [&](int i) {
     faces[static_cast<std::size_t>(i)] = face_facts(model, model.faces[static_cast<std::size_t>(i)]);
   });
-  if (request.json) {
+  if (arguments.json) {
     print_json(model, faces);
   } else {
     print_table(model, faces);

@@ -1,7 +1,6 @@
 // geovor mesh: from a CAD file to a triangle mesh.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <numbers>
 
 #include "base/error.h"
@@ -17,33 +16,20 @@
 #include "occ_adapter/write_step.h"
 #include "outputs.h"
 #include "parallel.h"
+#include "stopwatch.h"
 
 namespace geovor {
 namespace {
 
-/// Seconds since the last call or the construction.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-MeshOptions mesh_options(const MeshRequest& request, ProgressLine& progress) {
+MeshOptions mesh_options(const MeshArguments& arguments, ProgressLine& progress) {
   MeshOptions options;
-  options.size = request.size;
-  options.min_size = request.min_size;
-  options.deflection = request.deflection;
-  options.angle = request.angle * std::numbers::pi / 180.0;
-  options.gradation = request.gradation;
-  options.faces = request.faces;
-  options.for_each = for_each_on(request.threads);
+  options.size = arguments.size;
+  options.min_size = arguments.min_size;
+  options.deflection = arguments.deflection;
+  options.angle = arguments.angle * std::numbers::pi / 180.0;
+  options.gradation = arguments.gradation;
+  options.faces = arguments.faces;
+  options.for_each = for_each_on(arguments.threads);
   options.progress = [&progress](int done, int total) {
     progress.show(done, total);
     return true;
@@ -65,17 +51,17 @@ void write_mesh(const TriangleMesh& mesh, const std::string& unit, bool ascii, c
 }
 
 void write_outputs(MeshSummary& summary, Stopwatch& watch) {
-  const MeshRequest& request = *summary.request;
+  const MeshArguments& arguments = *summary.arguments;
   StagedOutputs outputs;
-  for (const std::string& path : request.outputs) {
+  for (const std::string& path : arguments.outputs) {
     if (summary.result->mesh.triangles.empty()) break;
     outputs.add(path, [&](const std::string& place) {
-      write_mesh(summary.result->mesh, summary.model->unit, request.ascii, place);
+      write_mesh(summary.result->mesh, summary.model->unit, arguments.ascii, place);
     });
   }
   summary.seconds_write = watch.lap();
-  if (!request.report.empty()) {
-    outputs.add(request.report, [&](const std::string& place) { write_file(place, report_json(summary)); });
+  if (!arguments.report.empty()) {
+    outputs.add(arguments.report, [&](const std::string& place) { write_file(place, report_json(summary)); });
   }
   outputs.commit();
 }
@@ -90,32 +76,32 @@ void name_failures(const MeshSummary& summary) {
 
 }  // namespace
 
-int run(const MeshRequest& request) {
-  std::vector<std::string> paths = request.outputs;
-  if (!request.report.empty()) paths.push_back(request.report);
-  check_outputs(paths, request.input);
+int run(const MeshArguments& arguments) {
+  std::vector<std::string> paths = arguments.outputs;
+  if (!arguments.report.empty()) paths.push_back(arguments.report);
+  check_outputs(paths, arguments.input);
   Stopwatch watch;
-  const CadModel model = in_context(request.input, [&] {
-    CadModel read = read_cad(request.input);
-    check_faces_exist(request.faces, static_cast<int>(read.faces.size()));
+  const CadModel model = in_context(arguments.input, [&] {
+    CadModel read = read_cad(arguments.input);
+    check_faces_exist(arguments.faces, static_cast<int>(read.faces.size()));
     return read;
   });
   const double seconds_read = watch.lap();
-  const MeshResult result = in_context(request.input, [&] {
-    ProgressLine progress(request.progress, "faces meshed");
-    return mesh_model(model, mesh_options(request, progress));
+  const MeshResult result = in_context(arguments.input, [&] {
+    ProgressLine progress(arguments.progress, "faces meshed");
+    return mesh_model(model, mesh_options(arguments, progress));
   });
   watch.lap();
-  MeshSummary summary = summarize(model, request, result);
+  MeshSummary summary = summarize(model, arguments, result);
   summary.seconds_read = seconds_read;
   summary.seconds_checks = watch.lap();
   name_failures(summary);
-  const bool wanted = summary.complete() || !request.strict;
+  const bool wanted = summary.complete() || !arguments.strict;
   if (wanted) write_outputs(summary, watch);
   fmt::print("{}", summary_text(summary));
   const bool has_mesh = !result.mesh.triangles.empty();
   for (const std::string& path : paths) {
-    if (wanted && (has_mesh || path == request.report)) fmt::print("{:<17} {}\n", "wrote", path);
+    if (wanted && (has_mesh || path == arguments.report)) fmt::print("{:<17} {}\n", "wrote", path);
   }
   return summary.complete() ? 0 : static_cast<int>(ErrorCode::FaceRejected);
 }

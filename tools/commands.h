@@ -5,8 +5,9 @@
 
 namespace geovor {
 
-int run(const InfoRequest& request);
-int run(const MeshRequest& request);
-inline int run(const NothingRequest&) { return 0; }
+int run(const InfoArguments& arguments);
+int run(const MeshArguments& arguments);
+int run(const VoronoiArguments& arguments);
+inline int run(const NoArguments&) { return 0; }
 
 }  // namespace geovor

@@ -13,7 +13,7 @@ inline std::string face_label(int number) { return "Face" + std::to_string(numbe
 
 /// Runs `work`; an Error that leaves it gets "`where`: " in front of its message.
 template <typename Work>
-auto in_context(const std::string& where, Work&& work) {
+decltype(auto) in_context(const std::string& where, Work&& work) {
   try {
     return std::forward<Work>(work)();
   } catch (const Error& error) {

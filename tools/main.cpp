@@ -24,9 +24,9 @@ int fail(geovor::ErrorCode code, std::string message) {
 }
 
 int run(int argc, char** argv) {
-  const geovor::Request request = geovor::parse_command_line(argc, argv);
+  const geovor::CommandLine arguments = geovor::parse_command_line(argc, argv);
   geovor::end_cleanly_on_interrupt();
-  const int code = std::visit([](const auto& wanted) { return geovor::run(wanted); }, request);
+  const int code = std::visit([](const auto& wanted) { return geovor::run(wanted); }, arguments);
   if (std::fflush(stdout) != 0) {
     throw geovor::Error(geovor::ErrorCode::Unwritable, "standard output can't be written to; free some space");
   }

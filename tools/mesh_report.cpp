@@ -38,16 +38,16 @@ std::string closed_text(const MeshSummary& summary) {
   return text;
 }
 
-Json options_json(const MeshRequest& request) {
-  return {{"size", request.size},
-          {"min_size", request.min_size},
-          {"deflection", std::isfinite(request.deflection) ? Json(request.deflection) : Json(nullptr)},
-          {"angle", request.angle},
-          {"gradation", request.gradation},
-          {"faces", request.faces},
-          {"threads", request.threads},
-          {"strict", request.strict},
-          {"outputs", request.outputs}};
+Json options_json(const MeshArguments& arguments) {
+  return {{"size", arguments.size},
+          {"min_size", arguments.min_size},
+          {"deflection", std::isfinite(arguments.deflection) ? Json(arguments.deflection) : Json(nullptr)},
+          {"angle", arguments.angle},
+          {"gradation", arguments.gradation},
+          {"faces", arguments.faces},
+          {"threads", arguments.threads},
+          {"strict", arguments.strict},
+          {"outputs", arguments.outputs}};
 }
 
 Json face_json(const CadModel& model, const FaceReport& face) {
@@ -87,10 +87,10 @@ Json quality_json(const MeshQuality& q) {
 
 }  // namespace
 
-MeshSummary summarize(const CadModel& model, const MeshRequest& request, const MeshResult& result) {
+MeshSummary summarize(const CadModel& model, const MeshArguments& arguments, const MeshResult& result) {
   MeshSummary summary;
   summary.model = &model;
-  summary.request = &request;
+  summary.arguments = &arguments;
   summary.result = &result;
   summary.topology = topology(result.mesh);
   summary.quality = quality(result.mesh);
@@ -140,7 +140,7 @@ std::string report_json(const MeshSummary& s) {
                          {"generator", "geovor " GEOVOR_VERSION},
                          {"input", s.model->file},
                          {"unit", s.model->unit},
-                         {"options", options_json(*s.request)},
+                         {"options", options_json(*s.arguments)},
                          {"warnings", s.model->warnings},
                          {"totals",
                           {{"faces", s.result->faces.size()},

@@ -13,7 +13,7 @@ namespace geovor {
 /// Everything that is known once the mesh is made.
 struct MeshSummary {
   const CadModel* model = nullptr;
-  const MeshRequest* request = nullptr;
+  const MeshArguments* arguments = nullptr;
   const MeshResult* result = nullptr;
   MeshTopology topology;
   MeshQuality quality;
@@ -26,7 +26,7 @@ struct MeshSummary {
   bool complete() const { return faces_partial == 0 && faces_rejected == 0; }
 };
 
-MeshSummary summarize(const CadModel& model, const MeshRequest& request, const MeshResult& result);
+MeshSummary summarize(const CadModel& model, const MeshArguments& arguments, const MeshResult& result);
 
 /// A few lines for stdout.
 std::string summary_text(const MeshSummary& summary);

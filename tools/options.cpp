@@ -13,6 +13,7 @@ namespace geovor {
 namespace {
 
 const std::vector<std::string> kMeshEndings = {".stl", ".step", ".stp", ".obj", ".svg"};
+const std::vector<std::string> kVoronoiEndings = {".json", ".svg"};
 
 const char* const kFooter =
     "Lengths are in the unit of the input file (geovor info prints it). Faces are numbered as FreeCAD numbers them: "
@@ -56,33 +57,59 @@ CLI::Option* add_input(CLI::App& command, std::string& input) {
   return command.add_option("INPUT", input, "CAD file: .step .stp .p21 .iges .igs .brep")->required()->type_name("");
 }
 
-void add_info(CLI::App& app, InfoRequest& request) {
+void add_info(CLI::App& app, InfoArguments& arguments) {
   CLI::App* command = app.add_subcommand("info", "Print what is in a CAD file, one row a face");
-  add_input(*command, request.input);
-  command->add_flag("--json", request.json, "Print JSON");
+  add_input(*command, arguments.input);
+  command->add_flag("--json", arguments.json, "Print JSON");
 }
 
-void add_mesh(CLI::App& app, MeshRequest& request, std::string& faces, bool& progress) {
+void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
   CLI::App* command = app.add_subcommand("mesh", "Mesh the faces of a CAD file with triangles");
-  add_input(*command, request.input);
-  add_outputs(*command, request.outputs, ".stl .step .stp .obj .svg (a picture)");
+  add_input(*command, arguments.input);
+  add_outputs(*command, arguments.outputs, ".stl .step .stp .obj .svg (a picture)");
   const auto length = [&](const char* name, double& value, const char* help, bool zero_too = false) {
     return command->add_option(name, value, help)->check(length_check(zero_too))->type_name("LENGTH");
   };
-  length("--size", request.size, "The length that an edge is to have")->required();
-  length("--min-size", request.min_size, "No rule asks for less than this (default: a twentieth of --size)");
-  length("--deflection", request.deflection, "Largest distance from a triangle to the face (default: no limit)");
-  length("--angle", request.angle, "Largest turn of the normal across an edge, degrees (default: 15)")
+  length("--size", arguments.size, "The length that an edge is to have")->required();
+  length("--min-size", arguments.min_size, "No rule asks for less than this (default: a twentieth of --size)");
+  length("--deflection", arguments.deflection, "Largest distance from a triangle to the face (default: no limit)");
+  length("--angle", arguments.angle, "Largest turn of the normal across an edge, degrees (default: 15)")
       ->type_name("DEG");
-  length("--gradation", request.gradation, "How fast the size may grow with distance (default: 0.5)")->type_name("G");
+  length("--gradation", arguments.gradation, "How fast the size may grow with distance (default: 0.5)")->type_name("G");
   command->add_option("--faces", faces, "Faces to mesh, such as 1,4-9,Face12 (default: all)")->type_name("LIST");
-  command->add_option("--threads", request.threads, "Threads to use (default: all cores)")
+  command->add_option("--threads", arguments.threads, "Threads to use (default: all cores)")
       ->check(whole_number_check(1))
       ->type_name("N");
-  command->add_option("--report", request.report, "Write what was done, face by face, as JSON")->type_name("FILE.json");
-  command->add_flag("--progress,!--no-progress", progress, "Progress on stderr (default: where that is a terminal)");
-  command->add_flag("--ascii", request.ascii, "Write .stl as text");
-  command->add_flag("--strict", request.strict, "Write nothing unless every face was meshed");
+  command->add_option("--report", arguments.report, "Write what was done, face by face, as JSON")
+      ->type_name("FILE.json");
+  CLI::Option* always =
+      command->add_flag("--progress")->description("Progress on stderr, even where that is no terminal");
+  command->add_flag("--no-progress")->description("No progress on stderr")->excludes(always);
+  command->add_flag("--ascii", arguments.ascii, "Write .stl as text");
+  command->add_flag("--strict", arguments.strict, "Write nothing unless every face was meshed");
+}
+
+void add_voronoi(CLI::App& app, VoronoiArguments& arguments, std::string& face) {
+  CLI::App* command = app.add_subcommand("voronoi", "Compute the geodesic Voronoi diagram of sites on one face");
+  add_input(*command, arguments.input);
+  add_outputs(*command, arguments.outputs, ".json .svg");
+  command->add_option("--face", face, "The face, such as 3 or Face3 (not needed where the file has one)")
+      ->type_name("N");
+  CLI::Option* sites =
+      command->add_option("--sites", arguments.sites, "CSV file with the header u,v or x,y,z")->type_name("FILE");
+  CLI::Option* count = command->add_option("--count", arguments.count, "Place so many sites, evenly")
+                           ->check(whole_number_check(1))
+                           ->type_name("N");
+  CLI::Option* spacing = command->add_option("--spacing", arguments.spacing, "Place sites about so far apart")
+                             ->check(length_check(false))
+                             ->type_name("LENGTH");
+  command->add_option("--seed", arguments.seed, "Another number places other sites (default: 0)")
+      ->check(whole_number_check(0))
+      ->excludes(sites)
+      ->type_name("S");
+  command->add_flag("--snap", arguments.snap, "Move sites in space onto the face, however far they are")->needs(sites);
+  sites->excludes(count)->excludes(spacing);
+  count->excludes(spacing);
 }
 
 /// CLI11's messages run over several lines and end in full stops; ours are one line.
@@ -100,39 +127,51 @@ std::string one_line(std::string text) {
   throw Error(ErrorCode::Usage, fmt::format("{}; see geovor{} --help", one_line(message), command));
 }
 
-Request checked(MeshRequest request, const std::string& faces, const CLI::Option& progress, bool wants_progress) {
-  check_endings(request.outputs, kMeshEndings);
-  if (!faces.empty()) request.faces = parse_face_list(faces);
-  if (progress.count() > 0) request.progress = wants_progress ? ProgressWish::Always : ProgressWish::Never;
-  if (request.min_size > request.size) {
+CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI::App& command) {
+  check_endings(arguments.outputs, kMeshEndings);
+  if (!faces.empty()) arguments.faces = parse_face_list(faces);
+  if (command.count("--progress") > 0) arguments.progress = ProgressWish::Always;
+  if (command.count("--no-progress") > 0) arguments.progress = ProgressWish::Never;
+  if (arguments.min_size > arguments.size) {
     throw Error(ErrorCode::Usage,
-                fmt::format("--min-size {} is above --size {}; lower it", request.min_size, request.size));
+                fmt::format("--min-size {} is above --size {}; lower it", arguments.min_size, arguments.size));
   }
-  return request;
+  return arguments;
+}
+
+CommandLine checked(VoronoiArguments arguments, const std::string& face) {
+  check_endings(arguments.outputs, kVoronoiEndings);
+  if (!face.empty()) arguments.face = parse_face(face);
+  if (arguments.sites.empty() && arguments.count == 0 && arguments.spacing == 0.0) {
+    throw Error(ErrorCode::Usage, "voronoi needs sites; give --sites FILE, --count N or --spacing LENGTH");
+  }
+  return arguments;
 }
 
 }  // namespace
 
-Request parse_command_line(int argc, const char* const* argv) {
+CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app("geovor: geodesic Voronoi diagrams and Delaunay meshes on CAD surfaces", "geovor");
   app.set_version_flag("--version", "geovor " GEOVOR_VERSION);
   app.footer(kFooter);
   app.require_subcommand(1);
-  InfoRequest info;
-  MeshRequest mesh;
-  std::string mesh_faces;
-  bool wants_progress = false;
+  InfoArguments info;
+  MeshArguments mesh;
+  VoronoiArguments voronoi;
+  std::string mesh_faces, voronoi_face;
   add_info(app, info);
-  add_mesh(app, mesh, mesh_faces, wants_progress);
+  add_mesh(app, mesh, mesh_faces);
+  add_voronoi(app, voronoi, voronoi_face);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) fail(app, error.what());
     app.exit(error);  // help or version
-    return NothingRequest{};
+    return NoArguments{};
   }
   if (app.got_subcommand("info")) return info;
-  return checked(mesh, mesh_faces, *app.get_subcommand("mesh")->get_option("--progress"), wants_progress);
+  if (app.got_subcommand("voronoi")) return checked(voronoi, voronoi_face);
+  return checked(mesh, mesh_faces, *app.get_subcommand("mesh"));
 }
 
 }  // namespace geovor

@@ -1,7 +1,9 @@
 // The command line: what each command was asked to do.
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,12 +12,12 @@
 
 namespace geovor {
 
-struct InfoRequest {
+struct InfoArguments {
   std::string input;
   bool json = false;
 };
 
-struct MeshRequest {
+struct MeshArguments {
   std::string input;
   std::vector<std::string> outputs;
   double size = 0.0;                                            ///< model units
@@ -31,13 +33,24 @@ struct MeshRequest {
   bool strict = false;  ///< write nothing unless every face was meshed
 };
 
-/// Nothing left to do: the help or the version was printed.
-struct NothingRequest {};
+struct VoronoiArguments {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::optional<int> face;
+  std::string sites;     ///< path of a CSV file, empty: none
+  int count = 0;         ///< sites to place; 0: none
+  double spacing = 0.0;  ///< model units between sites to place; 0: none
+  std::uint64_t seed = 0;
+  bool snap = false;  ///< sites off the face are moved onto it
+};
 
-using Request = std::variant<NothingRequest, InfoRequest, MeshRequest>;
+/// Nothing left to do: the help or the version was printed.
+struct NoArguments {};
+
+using CommandLine = std::variant<NoArguments, InfoArguments, MeshArguments, VoronoiArguments>;
 
 /// Prints the help or the version on stdout where these are asked for. Throws Error(Usage), with one line that ends in
 /// where to read more.
-Request parse_command_line(int argc, const char* const* argv);
+CommandLine parse_command_line(int argc, const char* const* argv);
 
 }  // namespace geovor

@@ -22,10 +22,15 @@ namespace fs = std::filesystem;
 std::mutex staging_mutex;
 std::set<std::string> staging_folders;
 
-/// The file that a path means: what a link points at, else the path itself.
+/// The file that a path means: what a link points at, whether that is there or not, else the path itself.
 std::string target_of(const std::string& path) {
-  std::error_code ignored;
-  return fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored).string() : path;
+  constexpr int kMostLinks = 40;  // as the kernel allows; a circle of links ends here and fails when it is written
+  fs::path target = path;
+  std::error_code failure;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(target, failure); ++i) {
+    target = target.parent_path() / fs::read_symlink(target, failure);
+  }
+  return target.string();
 }
 
 fs::path folder_of(const std::string& path) {

@@ -176,10 +176,16 @@ class BadSites(ProgramTest):
         return self.voronoi_fails(words, "--sites", self.write("sites.csv", text))
 
     def test_neither_sites_nor_a_count(self):
-        self.voronoi_fails("--sites FILE or --count N")
+        self.voronoi_fails("give --sites FILE, --count N or --spacing LENGTH")
 
     def test_both_sites_and_a_count(self):
         self.voronoi_fails("--count", "--sites", "sites.csv", "--count", 3)
+
+    def test_both_a_count_and_a_spacing(self):
+        self.voronoi_fails("--spacing", "--count", 3, "--spacing", 1)
+
+    def test_a_negative_spacing(self):
+        self.voronoi_fails("--spacing: '-1' won't do", "--spacing", -1)
 
     def test_a_count_of_zero(self):
         self.voronoi_fails("--count: '0' won't do", "--count", 0)
@@ -203,13 +209,13 @@ class BadSites(ProgramTest):
         self.sites_fail("sites.csv: line 2: 'nan' is no number", "u,v\nnan,0\n")
 
     def test_a_site_outside_the_face(self):
-        self.sites_fail("line 3", "u,v\n0.1,0.2\n7,0\n")
+        self.sites_fail("sites.csv: line 3: ", "u,v\n0.1,0.2\n7,0\n")
 
     def test_a_site_above_the_face(self):
-        self.sites_fail("line 2", "x,y,z\n0,0,0.5\n")
+        self.sites_fail("sites.csv: line 2: ", "x,y,z\n0,0,0.5\n")
 
     def test_two_equal_sites(self):
-        self.sites_fail("line 4", "u,v\n0.1,0.2\n0.5,0.5\n0.1,0.2\n")
+        self.sites_fail("sites.csv: lines 2 and 4: ", "u,v\n0.1,0.2\n0.5,0.5\n0.1,0.2\n")
 
     def test_the_face_must_be_named_where_there_are_several(self):
         self.voronoi_fails("--face", "--count", 3, model="plate.step")

@@ -1,0 +1,164 @@
+// geovor voronoi: the geodesic Voronoi diagram of sites on one face.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/error.h"
+#include "commands.h"
+#include "context.h"
+#include "face_list.h"
+#include "io/diagram_json.h"
+#include "io/diagram_svg.h"
+#include "occ_adapter/read_cad.h"
+#include "outputs.h"
+#include "pipeline/voronoi_face.h"
+#include "sites_file.h"
+#include "stopwatch.h"
+
+namespace geovor {
+namespace {
+
+/// What the diagram calls a part that it could not compute.
+const char* const kUnresolved = "unresolved";
+
+const CadFace& chosen_face(const CadModel& model, const VoronoiArguments& arguments) {
+  const int count = static_cast<int>(model.faces.size());
+  if (!arguments.face && count > 1) {
+    throw Error(ErrorCode::Usage, fmt::format("the file has {} faces; choose one with --face N", count));
+  }
+  const int number = arguments.face.value_or(1);
+  check_faces_exist({number}, count);
+  return model.faces[static_cast<std::size_t>(number - 1)];
+}
+
+VoronoiRequest request_of(const VoronoiArguments& arguments, const SitesFile& file) {
+  VoronoiRequest request;
+  for (const SiteRow& row : file.rows) {
+    const auto [a, b, c] = row.values;
+    if (file.in_space) {
+      request.sites.emplace_back(Xyz(a, b, c));
+    } else {
+      request.sites.emplace_back(Uv{a, b});
+    }
+  }
+  request.count = arguments.count;
+  request.spacing = arguments.spacing;
+  request.seed = arguments.seed;
+  request.snap = arguments.snap;
+  return request;
+}
+
+/// What is wrong with a site, by the line of the sites file that it came from.
+Error error_of_line(const SiteError& error, const std::string& path, const SitesFile& file) {
+  const auto line = [&](int site) { return file.rows[static_cast<std::size_t>(site)].line; };
+  const std::string where = error.other() < 0
+                                ? fmt::format("line {}: the site", line(error.site()))
+                                : fmt::format("lines {} and {}: the sites", line(error.site()), line(error.other()));
+  return {error.code(), fmt::format("{}: {} {}", path, where, error.reason())};
+}
+
+VoronoiResult compute(const CadModel& model, const CadFace& face, const VoronoiArguments& arguments,
+                      const SitesFile& file) {
+  try {
+    return voronoi_face(model, face, request_of(arguments, file));
+  } catch (const SiteError& error) {
+    if (!file.rows.empty()) throw error_of_line(error, arguments.sites, file);
+    throw Error(error.code(), fmt::format("{}: {}: {}", model.file, face_label(face.number), error.what()));
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}: {}", model.file, face_label(face.number), error.what()));
+  }
+}
+
+DiagramSource source_of(const CadModel& model, const CadFace& face, const VoronoiResult& result) {
+  DiagramSource source;
+  source.generator = "geovor " GEOVOR_VERSION;
+  source.input = model.file;
+  source.face = face.number;
+  source.unit = model.unit;
+  source.surface_type = to_string(result.surface->kind());
+  source.parameters = result.parameters;
+  source.u_period = result.surface->u_period();
+  source.v_period = result.surface->v_period();
+  return source;
+}
+
+void write_outputs(const VoronoiArguments& arguments, const DiagramSource& source, const VoronoiResult& result) {
+  StagedOutputs outputs;
+  for (const std::string& path : arguments.outputs) {
+    outputs.add(path, [&](const std::string& place) {
+      if (ending(path) == ".json") {
+        write_diagram_json(source, result.diagram, result.dual, place);
+      } else {
+        write_diagram_svg(result.diagram, result.dual, result.raster, place);
+      }
+    });
+  }
+  outputs.commit();
+}
+
+std::string warnings_text(const VoronoiDiagram& diagram) {
+  std::map<std::string, int> counts;
+  for (const DiagramWarning& warning : diagram.warnings) ++counts[warning.kind];
+  std::string text;
+  for (const auto& [kind, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind);
+  return text.empty() ? "none" : text;
+}
+
+double largest_residual(const VoronoiDiagram& diagram) {
+  double largest = 0.0;
+  for (const DiagramVertex& vertex : diagram.vertices) largest = std::max(largest, vertex.residual);
+  for (const DiagramEdge& edge : diagram.edges) largest = std::max(largest, edge.residual);
+  return largest;
+}
+
+void print_summary(const CadModel& model, const CadFace& face, const VoronoiResult& result) {
+  const VoronoiDiagram& diagram = result.diagram;
+  double area = 0.0;
+  for (const DiagramCell& cell : diagram.cells) area += cell.area;
+  const auto line = [](const char* name, const std::string& value) { fmt::print("{:<17} {}\n", name, value); };
+  line("face", fmt::format("{} ({}), area {:.8g} {}^2", face_label(face.number), to_string(result.surface->kind()),
+                           result.face_area, model.unit));
+  line("sites", std::to_string(diagram.sites.size()));
+  line("vertices", std::to_string(diagram.vertices.size()));
+  line("edges", std::to_string(diagram.edges.size()));
+  line("cells", fmt::format("{}, together {:.6f} of the face", diagram.cells.size(), area / result.face_area));
+  line("largest residual", fmt::format("{:.2g}", largest_residual(diagram)));
+  line("Delaunay", result.dual.is_triangulation ? fmt::format("{} triangles", result.dual.triangles.size())
+                                                : "no triangulation: " + result.dual.why_not);
+  line("warnings", warnings_text(diagram));
+}
+
+/// A line on stderr for every part that could not be computed; whether there is none.
+bool name_failures(const CadModel& model, const CadFace& face, const VoronoiDiagram& diagram) {
+  bool complete = true;
+  for (const DiagramWarning& warning : diagram.warnings) {
+    if (warning.kind != kUnresolved) continue;
+    complete = false;
+    fmt::print(stderr, "geovor: {}: {}: near u = {:.6g}, v = {:.6g}: {}; move the sites there a little\n", model.file,
+               face_label(face.number), warning.uv.u, warning.uv.v, warning.text);
+  }
+  return complete;
+}
+
+}  // namespace
+
+int run(const VoronoiArguments& arguments) {
+  check_outputs(arguments.outputs, arguments.input);
+  const SitesFile file = arguments.sites.empty() ? SitesFile{} : read_sites_file(arguments.sites);
+  Stopwatch watch;
+  const CadModel model = in_context(arguments.input, [&] { return read_cad(arguments.input); });
+  const double seconds_read = watch.lap();
+  const CadFace& face = in_context(arguments.input, [&]() -> const CadFace& { return chosen_face(model, arguments); });
+  const VoronoiResult result = compute(model, face, arguments, file);
+  const double seconds_diagram = watch.lap();
+  write_outputs(arguments, source_of(model, face, result), result);
+  const bool complete = name_failures(model, face, result.diagram);
+  print_summary(model, face, result);
+  fmt::print("{:<17} read {:.2f}, diagram {:.2f}, write {:.2f}\n", "seconds", seconds_read, seconds_diagram,
+             watch.lap());
+  for (const std::string& path : arguments.outputs) fmt::print("{:<17} {}\n", "wrote", path);
+  return complete ? 0 : static_cast<int>(ErrorCode::FaceRejected);
+}
+
+}  // namespace geovor
