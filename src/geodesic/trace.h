@@ -42,7 +42,8 @@ struct TraceResult {
 };
 
 /// Follows the geodesic from `start` along `direction` (of any length but zero; it is normalized in the metric).
-/// Promises: with status Converged the end lies within options.tolerance * length of the true one, knots and all: the
+/// Promises: with status Converged the end lies within 5 * options.tolerance * length of the true one (within
+/// tolerance * length at 1e-12 and below, for paths of half a curvature radius or more), knots and all: the
 /// integrator (Dormand-Prince 8(5,3)) works on one analytic piece at a time and restarts on the line between two.
 /// Does not promise that the path is shortest; see geodesic/distance.h.
 TraceResult trace_geodesic(const Surface& surface, Uv start, UvVec direction, double length,
