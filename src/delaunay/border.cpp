@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <queue>
 #include <tuple>
 
-#include "surface/forms.h"
+#include "delaunay/surface_probe.h"
 
 namespace geovor {
 namespace {
@@ -35,19 +36,6 @@ double curve_curvature(const CurveJet<3>& j) {
   return std::isfinite(k) ? k : 0.0;
 }
 
-double surface_curvature(const CadModel& model, const Use& use, double t) {
-  const Surface* surface = model.faces[use.face].surface.get();
-  if (surface == nullptr) return 0.0;
-  const auto p = use.coedge->pcurve->position(t);
-  const SurfaceJet j = surface->jet({p.x(), p.y()});
-  // Near a pole the forms have lost their digits; the faces around it tell the size there.
-  constexpr double kTrusted = 1e-4;
-  if (j.Su.cross(j.Sv).norm() < kTrusted * j.Su.norm() * j.Sv.norm() || j.Su.norm() < kTrusted * j.Sv.norm() * 1e-3)
-    return 0.0;
-  const double k = curvatures(j).largest();
-  return std::isfinite(k) ? k : 0.0;
-}
-
 class Sampler {
  public:
   Sampler(const CadModel& model, const SizeRule& rule, const std::vector<double>& finer)
@@ -55,6 +43,7 @@ class Sampler {
   BorderPoints run();
 
  private:
+  double surface_curvature(const Use& use, double t) const;
   void collect_uses();
   void look_at(int edge);
   void grade();
@@ -65,6 +54,7 @@ class Sampler {
   const CadModel& model_;
   const SizeRule& rule_;
   const std::vector<double>& finer_;
+  std::vector<std::optional<SurfaceProbe>> probes_;  // of the faces
   std::vector<std::vector<Use>> uses_;
   std::vector<Stations> stations_;
   std::vector<double> vertex_size_;
@@ -73,11 +63,19 @@ class Sampler {
 };
 
 void Sampler::collect_uses() {
+  probes_.resize(model_.faces.size());
   for (size_t f = 0; f < model_.faces.size(); ++f) {
+    if (model_.faces[f].surface) probes_[f].emplace(*model_.faces[f].surface, parameter_box(model_.faces[f]));
     for (const TrimLoop& loop : model_.faces[f].loops) {
       for (const Coedge& c : loop.coedges) uses_[c.edge].push_back({static_cast<int>(f), &c});
     }
   }
+}
+
+double Sampler::surface_curvature(const Use& use, double t) const {
+  if (!probes_[use.face]) return 0.0;
+  const auto p = use.coedge->pcurve->position(t);
+  return probes_[use.face]->at({p.x(), p.y()}).curvature;
 }
 
 void Sampler::look_at(int edge) {
@@ -92,7 +90,7 @@ void Sampler::look_at(int edge) {
       const double t = pieces[i] + (pieces[i + 1] - pieces[i]) * k / kStationsPerPiece;
       const CurveJet<3> j = e.curve->jet(t);
       double curvature = curve_curvature(j);
-      for (const Use& use : uses_[edge]) curvature = std::max(curvature, surface_curvature(model_, use, t));
+      for (const Use& use : uses_[edge]) curvature = std::max(curvature, surface_curvature(use, t));
       const double step = st.t.empty() ? 0.0 : t - st.t.back();
       const double s = st.t.empty() ? 0.0
                                     : st.s.back() + step / 6.0 *

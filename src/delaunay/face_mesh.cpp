@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 
 #include "delaunay/refine.h"
 #include "delaunay/scaffold.h"
@@ -10,35 +9,6 @@
 
 namespace geovor {
 namespace {
-
-// The box of the border points, a little larger (border curves bulge between them) but inside the surface's domain.
-UvBox parameter_box(const CadFace& face, const BorderPoints& border) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  constexpr double kBulge = 0.05;
-  UvBox box{{kInf, -kInf}, {kInf, -kInf}};
-  const auto extend = [](Interval& r, double x) { r = {std::min(r.lo, x), std::max(r.hi, x)}; };
-  for (const TrimLoop& loop : face.loops) {
-    for (const Coedge& c : loop.coedges) {
-      std::vector<double> t = border.edges[c.edge].t;
-      t.push_back(c.range.lo);
-      t.push_back(c.range.hi);
-      for (double x : t) {
-        if (!c.range.contains(x)) continue;
-        const auto p = c.pcurve->position(x);
-        extend(box.u, p.x());
-        extend(box.v, p.y());
-      }
-    }
-  }
-  const auto widen = [](Interval r, Interval domain, bool periodic) {
-    const double by = kBulge * r.length();
-    return periodic ? Interval{r.lo - by, r.hi + by}
-                    : Interval{std::max(r.lo - by, domain.lo), std::min(r.hi + by, domain.hi)};
-  };
-  const UvBox domain = face.surface->domain();
-  return {widen(box.u, domain.u, face.surface->u_period().has_value()),
-          widen(box.v, domain.v, face.surface->v_period().has_value())};
-}
 
 void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
   const HalfEdges& topo = mesh.topology();
@@ -59,7 +29,7 @@ void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
 
 FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRule& rule) {
   FaceMesh out;
-  const SurfaceProbe probe(*face.surface, parameter_box(face, border));
+  const SurfaceProbe probe(*face.surface, parameter_box(face));
   Scaffold scaffold = build_scaffold(face, probe, border, rule);
   if (!scaffold.ok) {
     out.why = scaffold.why;
@@ -89,7 +59,7 @@ FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRu
 }
 
 std::vector<int> points_to_refine(const CadFace& face, const BorderPoints& border) {
-  return border_faults(face, SurfaceProbe(*face.surface, parameter_box(face, border)), border);
+  return border_faults(face, SurfaceProbe(*face.surface, parameter_box(face)), border);
 }
 
 }  // namespace geovor

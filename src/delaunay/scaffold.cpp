@@ -155,6 +155,7 @@ void Builder::halve_edges() {
     queue_.pop();
     if (mesh_.origin(c.edge) != c.a || mesh_.target(c.edge) != c.b) continue;
     const int longest = end_of_longest_path(c.edge);
+    if (longest == HalfEdges::kNone) continue;
     halve(longest);
     if (longest != c.edge && mesh_.origin(c.edge) == c.a && mesh_.target(c.edge) == c.b) queue_.push(c);
   }
@@ -162,13 +163,14 @@ void Builder::halve_edges() {
 
 // From triangle to triangle, always on to a longer edge: halving the last one first keeps the triangles from
 // degenerating (Rivara's longest-edge propagation path), and a short edge beside a long one from being halved for ever.
+// A path that ends on the border ends in nothing: border edges are as long as they are.
 int Builder::end_of_longest_path(int edge) const {
   double length = image_length(edge);
   for (bool found = true; found;) {
     found = false;
     const int twin = mesh_.twin(edge);
+    if (twin == HalfEdges::kNone) return HalfEdges::kNone;
     for (int e : {HalfEdges::next(edge), HalfEdges::prev(edge), HalfEdges::next(twin), HalfEdges::prev(twin)}) {
-      if (mesh_.twin(e) == HalfEdges::kNone) continue;
       const double other = image_length(e);
       if (other > length * (1.0 + kLonger)) {
         length = other;

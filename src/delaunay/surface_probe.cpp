@@ -1,7 +1,9 @@
 #include "delaunay/surface_probe.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "surface/forms.h"
 
@@ -13,7 +15,31 @@ constexpr double kVanishing = 1e-7;
 // Below this sine the two derivatives count as parallel.
 constexpr double kParallel = 1e-9;
 
+// A border curve may bulge beyond the points at which it was looked at, by this share of the box.
+constexpr double kBulge = 0.05;
+constexpr int kLooks = 16;
+
 }  // namespace
+
+UvBox parameter_box(const CadFace& face) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  UvBox box{{kInf, -kInf}, {kInf, -kInf}};
+  for (const TrimLoop& loop : face.loops) {
+    for (const Coedge& c : loop.coedges) {
+      for (int i = 0; i <= kLooks; ++i) {
+        const auto p = c.pcurve->position(c.range.lo + c.range.length() * i / kLooks);
+        box.u = {std::min(box.u.lo, p.x()), std::max(box.u.hi, p.x())};
+        box.v = {std::min(box.v.lo, p.y()), std::max(box.v.hi, p.y())};
+      }
+    }
+  }
+  const auto widen = [](Interval r, Interval domain, bool periodic) {
+    const Interval wide{r.lo - kBulge * r.length(), r.hi + kBulge * r.length()};
+    return periodic ? wide : Interval{std::max(wide.lo, domain.lo), std::min(wide.hi, domain.hi)};
+  };
+  const Surface& s = *face.surface;
+  return {widen(box.u, s.domain().u, s.u_period().has_value()), widen(box.v, s.domain().v, s.v_period().has_value())};
+}
 
 SurfaceProbe::SurfaceProbe(const Surface& surface, const UvBox& box) : surface_(surface), box_(box) {
   constexpr int kGrid = 7;

@@ -1,6 +1,7 @@
 // A surface as the mesher looks at it: position, normal and curvature, also where the parameterization degenerates.
 #pragma once
 
+#include "brep/model.h"
 #include "surface/surface.h"
 
 namespace geovor {
@@ -11,6 +12,10 @@ struct SurfaceSample {
   double curvature = 0.0;  ///< largest |normal curvature|
   bool regular = true;     ///< false where Su and Sv do not span the tangent plane
 };
+
+/// The parameters of the face's border, a little enlarged, but inside the surface's domain in directions that are not
+/// periodic. REQUIRES: face.surface != nullptr.
+UvBox parameter_box(const CadFace& face);
 
 /// Evaluates a surface over a box of its parameters.
 class SurfaceProbe {
