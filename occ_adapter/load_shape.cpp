@@ -6,6 +6,8 @@
 #include <IGESControl_Controller.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_InterfaceModel.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Controller.hxx>
@@ -20,6 +22,7 @@
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 
 #include "occ_adapter/occ_private.h"
@@ -107,6 +110,29 @@ std::string step_unit(STEPControl_Reader& reader) {
   return unit;
 }
 
+/// Whether an entity of geometry or topology lacks what it refers to. OpenCASCADE's translator follows such a reference
+/// into a null pointer and takes the program down. A missing name harms nothing.
+bool is_damaged(const Handle(Interface_InterfaceModel) & model, int number) {
+  const std::string type = model->Value(number)->DynamicType()->Name();
+  const bool shapes = type.rfind("StepGeom_", 0) == 0 || type.rfind("StepShape_", 0) == 0 ||
+                      type == "StepRepr_DefinitionalRepresentation";
+  if (!shapes) return false;
+  const Handle(Interface_Check) check = model->Check(number, true);
+  for (int i = 1; i <= check->NbFails(); ++i) {
+    if (std::string(check->CFail(i)).find("(name)") == std::string::npos) return true;
+  }
+  return false;
+}
+
+void require_sound_entities(STEPControl_Reader& reader) {
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  for (int i = 1; !model.IsNull() && i <= model->NbEntities(); ++i) {
+    if (!is_damaged(model, i)) continue;
+    const std::string label = model->StringLabel(model->Value(i))->ToCString();
+    fail("the STEP entity " + label + " is damaged; " + kExportAgain);
+  }
+}
+
 void require_step_status(IFSelect_ReturnStatus status) {
   if (status == IFSelect_RetDone) return;
   fail(std::string("OpenCASCADE finds ") + (status == IFSelect_RetVoid ? "no data" : "errors of syntax") +
@@ -123,6 +149,7 @@ bool load_step_document(const std::string& path, LoadedShape& loaded) {
   reader.SetPropsMode(false);
   reader.SetLayerMode(false);
   require_step_status(reader.ReadFile(path.c_str()));
+  require_sound_entities(reader.ChangeReader());
   const bool transferred = reader.Transfer(const_cast<Handle(TDocStd_Document)&>(document));
   if (transferred) {
     loaded.shape = reader.ChangeReader().OneShape();
@@ -136,6 +163,7 @@ bool load_step_document(const std::string& path, LoadedShape& loaded) {
 void load_step_shape(const std::string& path, LoadedShape& loaded) {
   STEPControl_Reader reader;
   require_step_status(reader.ReadFile(path.c_str()));
+  require_sound_entities(reader);
   const int roots = reader.NbRootsForTransfer();
   const int done = reader.TransferRoots();
   if (done < roots) {

@@ -126,6 +126,16 @@ TEST_F(BadFiles, StepWithDamagedDataIsRejected) {
   message(write("hollow.step", text));
 }
 
+// OpenCASCADE's own translator crashes on an axis placement whose point is no point.
+TEST_F(BadFiles, StepWithAReferenceToTheWrongEntityIsRejectedWithoutACrash) {
+  std::string text = box_as("whole.step");
+  const std::size_t placement = text.find("AXIS2_PLACEMENT_3D('',#");
+  ASSERT_NE(placement, std::string::npos);
+  const std::size_t from = placement + std::string("AXIS2_PLACEMENT_3D('',").size();
+  text.replace(from, text.find(',', from) - from, "#1");
+  EXPECT_THAT(message(write("crossed.step", text)), HasSubstr("is damaged"));
+}
+
 TEST_F(BadFiles, ShapeWithoutFaceIsRejected) {
   BRepTools::Write(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Shape(), path("edge.brep").c_str());
   EXPECT_THAT(message(path("edge.brep")), HasSubstr("no face"));
