@@ -31,7 +31,7 @@ class MeshSample : public ::testing::TestWithParam<std::string> {
 // One test a sample, because the mesh is made anew for each.
 TEST_P(MeshSample, IsAMeshOfTheShape) {
   for (const FaceReport& face : result_.faces) {
-    EXPECT_EQ(face.status, FaceStatus::Meshed) << "Face" << face.face << ": " << face.why;
+    EXPECT_TRUE(face.status == FaceStatus::Meshed) << "Face" << face.face << ": " << face.why;
     EXPECT_EQ(face.inverted, 0) << "Face" << face.face;
   }
   ASSERT_EQ(first_fault(mesh()), std::nullopt);

@@ -22,6 +22,8 @@ struct Variant {
   Uv (*map)(Uv);
 };
 
+void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.file; }
+
 /// The inverse of u = a s / (1 + (a - 1) s).
 double moebius_inverse(double u, double a) { return u / (a - (a - 1.0) * u); }
 
