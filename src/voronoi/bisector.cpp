@@ -12,6 +12,9 @@ namespace {
 // Newton from the predictor takes two or three steps; more than this means that the guess was bad.
 constexpr int kMaxIterations = 12;
 
+// A step of the iteration that turns a geodesic by more than this (radians) means nothing any more.
+constexpr double kMostTurn = 0.5;
+
 double half_turn(const BisectorPoint& m) {
   const Xyz n = m.right.T.cross(m.right.N);
   return 0.5 * turn_between(-m.right.T, -m.left.T, n);
@@ -48,7 +51,9 @@ std::optional<BisectorPoint> correct_bisector(const SiteRays& rays, int left, in
     step.add_plane(plane.normal, plane.offset);
     const EquidistantTarget target = step.solve();
     if (!target.solvable) return std::nullopt;
-    c = {target.radius, carry(*p, target.m).t, carry(*q, target.m).t};
+    const double turn_p = carry(*p, target.m).t - p->polar.t, turn_q = carry(*q, target.m).t - q->polar.t;
+    const double k = std::min(1.0, kMostTurn / std::max(std::abs(turn_p), std::abs(turn_q)));
+    c = {c.radius + k * (target.radius - c.radius), c.left_angle + k * turn_p, c.right_angle + k * turn_q};
   }
   return std::nullopt;
 }

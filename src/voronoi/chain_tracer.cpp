@@ -21,6 +21,12 @@ constexpr double kShortestStep = 1e-9;
 // A step may turn the edge by this much (radians) at most.
 constexpr double kMostTurn = 0.25;
 
+// Nor may a step swing the geodesics from the sites by more than this (radians), as happens near the sites.
+constexpr double kMostSwing = 0.4;
+
+// See ChainTracer::predict.
+constexpr double kSmallCorrection = 0.3;
+
 // A chain of more steps than this goes round and round.
 constexpr int kMostSteps = 200000;
 
@@ -110,9 +116,14 @@ std::optional<BisectorPoint> ChainTracer::predict(const Walk& walk, double h) co
     const BisectorPoint& prev = walk.chain.points[walk.chain.points.size() - 2];
     const BisectorSlope e = bisector_slope(prev);
     const double h0 = chord(prev, cur);
-    guess = {extrapolate(prev.radius(), e.radius, cur.radius(), d.radius, h0, h),
-             extrapolate(prev.left.polar.t, e.left_angle, cur.left.polar.t, d.left_angle, h0, h),
-             extrapolate(prev.right.polar.t, e.right_angle, cur.right.polar.t, d.right_angle, h0, h)};
+    // The cubic through the last two points is a better guess only where it is a small correction of the straight one.
+    const auto improve = [&](double& g, double f0, double d0, double f1, double d1) {
+      const double cubic = extrapolate(f0, d0, f1, d1, h0, h);
+      if (std::abs(cubic - g) < kSmallCorrection * h * std::abs(d1)) g = cubic;
+    };
+    improve(guess.radius, prev.radius(), e.radius, cur.radius(), d.radius);
+    improve(guess.left_angle, prev.left.polar.t, e.left_angle, cur.left.polar.t, d.left_angle);
+    improve(guess.right_angle, prev.right.polar.t, e.right_angle, cur.right.polar.t, d.right_angle);
   }
   const Xyz tangent = cur.tangent();
   return correct_bisector(rays_, cur.left.site, cur.right.site, guess, {tangent, tangent.dot(cur.position()) + h});
@@ -122,7 +133,9 @@ std::optional<BisectorPoint> ChainTracer::predict(const Walk& walk, double h) co
 // the border, or the start of the chain.
 ChainTracer::Step ChainTracer::advance(Walk& walk) const {
   const BisectorPoint cur = walk.current();
-  walk.step = std::min(walk.step, longest_step(cur));
+  const BisectorSlope slope = bisector_slope(cur);
+  const double swing = std::max(std::abs(slope.left_angle), std::abs(slope.right_angle));
+  walk.step = std::min({walk.step, longest_step(cur), kMostSwing / swing});
   const double h = walk.step;
   const auto next = predict(walk, h);
   if (!next || chord(cur, *next) > 1.5 * h) return Step::Failed;
@@ -155,7 +168,7 @@ ChainTracer::Step ChainTracer::advance(Walk& walk) const {
 std::optional<FaceBorder::Crossing> ChainTracer::leaves_face(const Walk& walk, const BisectorPoint& next) const {
   const BisectorPoint& cur = walk.current();
   const Uv from = domain_.to_principal(cur.left.uv);
-  const Uv to = from + (next.left.uv - cur.left.uv);
+  const Uv to = from + nearest_copy(rays_.surface(), cur.left.uv, next.left.uv);
   const bool leaves_border = walk.starts_on_border && walk.chain.points.size() == 1;
   const auto crossing = border_.first_crossing(from, to, leaves_border ? kOffBorder : 0.0);
   if (crossing || domain_.contains(to)) return crossing;

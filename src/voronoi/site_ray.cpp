@@ -115,6 +115,13 @@ bool same_generator(const SiteRay& a, const SiteRay& b) {
   return a.site == b.site && std::abs(wrap_angle(a.polar.t - b.polar.t)) < kSameAngle;
 }
 
+UvVec nearest_copy(const Surface& surface, Uv a, Uv b) {
+  const auto wrap = [](double x, const std::optional<double>& period) {
+    return period ? std::remainder(x, *period) : x;
+  };
+  return {wrap(b.u - a.u, surface.u_period()), wrap(b.v - a.v, surface.v_period())};
+}
+
 double wrap_angle(double t) { return std::remainder(t, kTwoPi); }
 
 double turn_between(const Xyz& a, const Xyz& b, const Xyz& n) {

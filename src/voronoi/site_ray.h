@@ -51,6 +51,9 @@ Polar carry(const SiteRay& ray, const Xyz& m);
 /// Whether two rays of one point are the same geodesic.
 bool same_generator(const SiteRay& a, const SiteRay& b);
 
+/// From a to the copy of b, by whole periods, that is nearest to it.
+UvVec nearest_copy(const Surface& surface, Uv a, Uv b);
+
 /// An angle brought into (-pi, pi].
 double wrap_angle(double t);
 
