@@ -123,6 +123,9 @@ std::string one_line(std::string text) {
 
 [[noreturn]] void fail(const CLI::App& app, const std::string& message) {
   const auto commands = app.get_subcommands();
+  if (const auto rest = app.remaining(); commands.empty() && !rest.empty()) {
+    throw Error(ErrorCode::Usage, fmt::format("'{}' is no command; see geovor --help", rest.front()));
+  }
   const std::string command = commands.empty() ? "" : " " + commands.front()->get_name();
   throw Error(ErrorCode::Usage, fmt::format("{}; see geovor{} --help", one_line(message), command));
 }

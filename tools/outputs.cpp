@@ -40,7 +40,7 @@ fs::path folder_of(const std::string& path) {
 
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
-  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  return fs::weakly_canonical(fs::absolute(a), ignored) == fs::weakly_canonical(fs::absolute(b), ignored);
 }
 
 void check_place(const std::string& path) {

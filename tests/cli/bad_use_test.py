@@ -77,7 +77,7 @@ class BadCommandLine(ProgramTest):
         self.fail_with(USAGE, "--help")
 
     def test_an_unknown_command(self):
-        self.fail_with(USAGE, "fly", "fly")
+        self.fail_with(USAGE, "'fly' is no command", "fly")
 
     def test_an_unknown_flag_is_named(self):
         self.mesh_fails("--colour", "--size", 1, "-o", "out.stl", "--colour", "red")
