@@ -18,8 +18,10 @@ constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 // Pieces of a ray for Boole's rule (a multiple of four), which leaves 1e-9 over one radius of curvature.
 constexpr int kRayPieces = 16;
 
-// A segment of the border is taken in parts that are seen from the site under no more than about this angle.
+// A segment of the border is taken in parts that are seen from the site under no more than about this angle, but none
+// shorter than a part of the segment: the border may run through the site.
 constexpr double kBorderPart = 0.25;
+constexpr double kShortestPart = 1e-3;
 
 class AreaRule {
  public:
@@ -81,20 +83,24 @@ class AreaRule {
     for (size_t i = 0; i + 1 < piece.border_uv.size(); ++i) {
       const Uv a = piece.border_uv[i];
       const UvVec way = piece.border_uv[i + 1] - a;
-      const double length = (piece.border_xyz[i + 1] - piece.border_xyz[i]).norm();
-      if (!(length > 1e-12 * norm(first_form(rays_.surface().jet(a)), way))) continue;  // the other side of a seam
-      const double off = last ? last->polar.s : length;
-      const int parts = std::min(64, 1 + static_cast<int>(length / (kBorderPart * off)));
-      for (int part = 0; part < parts; ++part) {
+      const UvVec rest = nearest_copy(rays_.surface(), a, piece.border_uv[i + 1]);
+      if (!(std::hypot(rest.u, rest.v) > 0.5 * std::hypot(way.u, way.v)))
+        continue;  // from one side of a seam to the other
+      const double length = norm(first_form(rays_.surface().jet(lerp(a, a + way, 0.5))), way);
+      // Parts as long as a fraction of the distance to the site, which changes no faster than they go on.
+      for (double done = 0.0; done < 1.0;) {
+        const double off = last ? last->polar.s : length;
+        const double part = std::min(1.0 - done, std::max(kBorderPart * off / length, kShortestPart));
         for (int k = 0; k < 3; ++k) {
-          const Uv m = a + ((part + kNodes[k]) / parts) * way;
+          const Uv m = a + (done + kNodes[k] * part) * way;
           const SurfaceJet j = rays_.surface().jet(m);
           auto ray = last ? rays_.to(site, m, carry(*last, j.S)) : rays_.to(site, m);
           if (!ray) ray = rays_.to(site, m);
           if (!ray) return std::numeric_limits<double>::quiet_NaN();
-          sum += kWeights[k] / parts * ray->N.dot(push_forward(j, way)) / ray->y * sector(site, ray->polar);
+          sum += kWeights[k] * part * ray->N.dot(push_forward(j, way)) / ray->y * sector(site, ray->polar);
           last = ray;
         }
+        done += part;
       }
     }
     return sum;

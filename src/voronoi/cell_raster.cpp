@@ -105,20 +105,6 @@ void add_patches(const RowScan& scan, const FaceDomain& domain, int row, int col
   }
 }
 
-/// The polyline with more points, so that it bends with the surface.
-std::vector<Uv> refined(const std::vector<Uv>& line, const UvBox& box) {
-  constexpr double kPart = 1.0 / 64.0;  // of the rectangle
-  std::vector<Uv> out;
-  for (size_t i = 0; i + 1 < line.size(); ++i) {
-    const UvVec way = line[i + 1] - line[i];
-    const double size = std::max(std::abs(way.u) / box.u.length(), std::abs(way.v) / box.v.length());
-    const int parts = std::max(1, static_cast<int>(std::ceil(size / kPart)));
-    for (int k = 0; k < parts; ++k) out.push_back(line[i] + (static_cast<double>(k) / parts) * way);
-  }
-  out.push_back(line.back());
-  return out;
-}
-
 }  // namespace
 
 CellRaster raster_of_cells(const FaceDomain& domain, const VoronoiDiagram& diagram, int rows, int columns) {
@@ -128,7 +114,7 @@ CellRaster raster_of_cells(const FaceDomain& domain, const VoronoiDiagram& diagr
   for (int row = 0; row < rows; ++row) add_patches(scan, domain, row, columns, raster.patches);
   const FaceBorder border(domain);
   for (int cycle = 0; cycle < border.cycle_count(); ++cycle) {
-    raster.border_uv.push_back(refined(border.stretch({cycle, 0.0}, {cycle, 0.0}), domain.box()));
+    raster.border_uv.push_back(border.stretch({cycle, 0.0}, {cycle, 0.0}));
     raster.border.emplace_back();
     for (Uv p : raster.border_uv.back()) raster.border.back().push_back(border.xyz_of(p));
   }

@@ -121,12 +121,10 @@ void DiagramBuilder::scan_cycle(int cycle) {
   LabelledPlace last = label(0.0);
   const LabelledPlace first = last;
   double walked = 0.0;
-  Xyz x = border_.xyz({cycle, 0.0});
   for (int k = 0; k < border_.segment_count(cycle); ++k) {
-    const Xyz next = border_.xyz({cycle, k + 1.0 < end ? k + 1.0 : 0.0});
-    const int parts = std::max(1, static_cast<int>(std::ceil((next - x).norm() / longest)));
-    walked += (next - x).norm();
-    x = next;
+    const double length = border_.segment_length(cycle, k);
+    const int parts = std::max(1, static_cast<int>(std::ceil(length / longest)));
+    walked += length;
     if (walked < longest && k + 1 < border_.segment_count(cycle)) continue;  // short segments: one label for several
     walked = 0.0;
     for (int i = 1; i <= parts; ++i) {
@@ -212,7 +210,9 @@ bool DiagramBuilder::covered(const SiteRay& a, const SiteRay& b) const {
 }
 
 void DiagramBuilder::trace_seed(const LabelChange& change) {
-  if (!domain_.contains(change.before.uv) || covered(change.before, change.after)) return;
+  const Uv uv = domain_.to_principal(change.before.uv);
+  if (!domain_.contains(uv) || covered(change.before, change.after)) return;
+  if (domain_.distance_to_border(uv) < kMerge * change.before.polar.s) return;  // found by scan_border
   const BisectorPoint seed{change.before, change.after};
   const Chain onward = tracer_.trace(seed, false);
   if (onward.end == ChainEnd::Closed) {

@@ -14,6 +14,9 @@ constexpr double kSideStep = 1e-6;
 // A segment shorter than this in space, as a part of the face's size, is a piece of a pole.
 constexpr double kPole = 1e-10;
 
+// Of the rectangle around the face.
+constexpr double kLongestSegment = 1.0 / 48.0;
+
 // Segments of a run that shares one bounding box.
 constexpr int kBlock = 16;
 
@@ -74,6 +77,7 @@ FaceBorder::FaceBorder(const FaceDomain& domain) : domain_(domain) {
     if (whole) cycles_.push_back(chain);
   }
   link(open_chains);
+  split_long_segments();
   build_blocks();
 }
 
@@ -100,6 +104,23 @@ void FaceBorder::link(const std::vector<std::vector<Segment>>& open_chains) {
   }
 }
 
+void FaceBorder::split_long_segments() {
+  const UvBox& box = domain_.box();
+  for (auto& cycle : cycles_) {
+    std::vector<Segment> fine;
+    for (const Segment& s : cycle) {
+      const UvVec way = s.b - s.a;
+      const double size = std::max(std::abs(way.u) / box.u.length(), std::abs(way.v) / box.v.length());
+      const int parts = std::max(1, static_cast<int>(std::ceil(size / kLongestSegment)));
+      for (int k = 0; k < parts; ++k) {
+        const Uv end = k + 1 == parts ? s.b : lerp(s.a, s.b, static_cast<double>(k + 1) / parts);
+        fine.push_back({k == 0 ? s.a : fine.back().b, end});
+      }
+    }
+    cycle = std::move(fine);
+  }
+}
+
 void FaceBorder::build_blocks() {
   for (int c = 0; c < cycle_count(); ++c) {
     for (int i = 0; i < segment_count(c); i += kBlock) {
@@ -122,6 +143,16 @@ Uv FaceBorder::uv(BorderPlace place) const {
   const double whole = std::floor(place.parameter);
   const Segment& s = cycles_[place.cycle][static_cast<int>(whole) % n];
   return lerp(s.a, s.b, place.parameter - whole);
+}
+
+double FaceBorder::segment_length(int cycle, int k) const {
+  constexpr int kChords = 8;
+  const Segment& s = cycles_[cycle][k];
+  double length = 0.0;
+  for (int i = 0; i < kChords; ++i) {
+    length += (xyz_of(lerp(s.a, s.b, (i + 1.0) / kChords)) - xyz_of(lerp(s.a, s.b, double(i) / kChords))).norm();
+  }
+  return length;
 }
 
 UvVec FaceBorder::direction(BorderPlace place) const {

@@ -14,7 +14,8 @@ struct BorderPlace {
   double parameter = 0.0;
 };
 
-/// The border of a FaceDomain, cut at seams and poles and linked again in space, the face to the left.
+/// The border of a FaceDomain, cut at seams and poles and linked again in space, the face to the left. Its segments are
+/// short parts of the rectangle around the face, so that a polyline that jumps by a period has crossed a seam.
 class FaceBorder {
  public:
   explicit FaceBorder(const FaceDomain& domain);
@@ -25,6 +26,8 @@ class FaceBorder {
   Uv uv(BorderPlace place) const;
   Xyz xyz(BorderPlace place) const { return xyz_of(uv(place)); }
   Xyz xyz_of(Uv p) const { return domain_.surface().position(p); }
+  /// Length in space of the k-th segment, to a percent or so.
+  double segment_length(int cycle, int k) const;
   /// Direction of the segment at the place, with the face to the left.
   UvVec direction(BorderPlace place) const;
 
@@ -50,6 +53,7 @@ class FaceBorder {
     int cycle, first, last;
     UvBox box;
   };
+  void split_long_segments();
   void link(const std::vector<std::vector<Segment>>& open_chains);
   void build_blocks();
 
