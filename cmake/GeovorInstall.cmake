@@ -15,11 +15,12 @@ install(TARGETS ${rooms} geovor_all EXPORT geovorTargets ARCHIVE DESTINATION ${C
 install(EXPORT geovorTargets NAMESPACE geovor:: DESTINATION ${package_dir})
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/geovor FILES_MATCHING PATTERN "*.h")
 
-if(TARGET geovor_occ_adapter)
+if(WITH_OCC)
   install(TARGETS geovor_occ_adapter EXPORT geovorOccAdapterTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT geovorOccAdapterTargets NAMESPACE geovor:: DESTINATION ${package_dir})
-  install(DIRECTORY occ_adapter DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/geovor
-          FILES_MATCHING PATTERN "*.h" PATTERN "occ_private.h" EXCLUDE)
+  # Its other headers name OpenCASCADE's and are its own affair.
+  install(FILES occ_adapter/read_cad.h occ_adapter/write_step.h
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/geovor/occ_adapter)
 endif()
 
 configure_package_config_file(cmake/geovorConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/geovorConfig.cmake
