@@ -143,8 +143,10 @@ void smooth(SurfaceTriangulation& mesh) {
 
 RefineResult refine(SurfaceTriangulation& mesh) {
   RefineResult result;
+  mesh.decide_by_geodesics(false);
   mesh.flip_all();
   for (int round = 0; round < kRounds; ++round) {
+    mesh.decide_by_geodesics(round + 1 == kRounds);
     int removed = 0;
     do {
       removed = thin_out(mesh);

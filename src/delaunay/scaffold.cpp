@@ -20,6 +20,10 @@ constexpr double kLargestTurn = std::numbers::pi / 5;
 constexpr int kPieces = 4;
 // Of two edges the longer one is longer by this share at least, so that a path of equal edges ends.
 constexpr double kLonger = 1e-6;
+// A quadrilateral is turned only if both new triangles keep this share of it in the parameter plane …
+constexpr double kConvex = 1e-3;
+// … and only for a diagonal that is at most this part of the old one.
+constexpr double kShorter = 0.95;
 // A face that wants more vertices than this is asking for a mistake in the units.
 constexpr int kMostVertices = 4'000'000;
 
@@ -51,6 +55,9 @@ class Builder {
   void consider(int edge);
   PlaneVertex make_vertex(Uv uv, double h_bound) const;
   double image_length(int edge) const;
+  double image_length(int from, int to) const;
+  bool flip_shortens(int edge) const;
+  void shorten(std::vector<int> edges);
   int end_of_longest_path(int edge) const;
   void halve(int edge);
   Scaffold sew() const;
@@ -118,8 +125,10 @@ bool Builder::triangulate() {
   return true;
 }
 
-double Builder::image_length(int edge) const {
-  const Uv a = vertices_[mesh_.origin(edge)].uv, b = vertices_[mesh_.target(edge)].uv;
+double Builder::image_length(int edge) const { return image_length(mesh_.origin(edge), mesh_.target(edge)); }
+
+double Builder::image_length(int from, int to) const {
+  const Uv a = vertices_[from].uv, b = vertices_[to].uv;
   double sum = 0.0;
   Xyz last = probe_.position(a);
   for (int i = 1; i <= kPieces; ++i) {
@@ -194,9 +203,40 @@ void Builder::halve(int edge) {
   const int v = mesh_.add_vertex();
   vertices_.push_back(middle);
   mesh_.split_edge(edge, v);
+  std::vector<int> opposite;
   for (int e : mesh_.star(v)) {  // the edges opposite to v have new numbers: their old entries are dead
     consider(e);
     consider(HalfEdges::next(e));
+    opposite.push_back(HalfEdges::next(e));
+  }
+  shorten(std::move(opposite));
+}
+
+// Whether the quadrilateral about the edge is convex in the parameter plane and its other diagonal clearly shorter in
+// space.
+bool Builder::flip_shortens(int edge) const {
+  if (mesh_.fixed(edge)) return false;
+  const int c = mesh_.apex(edge), d = mesh_.apex(mesh_.twin(edge));
+  const Uv a = vertices_[mesh_.origin(edge)].uv, b = vertices_[mesh_.target(edge)].uv;
+  const Uv p = vertices_[c].uv, q = vertices_[d].uv;
+  const double whole = cross(b - a, p - a) + cross(q - a, b - a);
+  if (!(cross(q - p, b - p) < -kConvex * whole) || !(cross(a - p, q - p) < -kConvex * whole)) return false;
+  return image_length(c, d) < kShorter * image_length(edge);
+}
+
+// Each flip makes the sum of all lengths smaller, so this ends.
+void Builder::shorten(std::vector<int> edges) {
+  while (!edges.empty()) {
+    const int e = edges.back();
+    edges.pop_back();
+    if (!flip_shortens(e)) continue;
+    const int f = mesh_.twin(e);
+    mesh_.flip(e);
+    consider(e);
+    for (int x : {HalfEdges::next(e), HalfEdges::prev(e), HalfEdges::next(f), HalfEdges::prev(f)}) {
+      consider(x);
+      edges.push_back(x);
+    }
   }
 }
 

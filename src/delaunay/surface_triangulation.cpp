@@ -96,19 +96,26 @@ Xyz SurfaceTriangulation::circumcentre(int t) const {
   return vertices_[a].x + (p.squaredNorm() * q.cross(n) + q.squaredNorm() * n.cross(p)) / (2.0 * n.squaredNorm());
 }
 
-double SurfaceTriangulation::cotangent_sum(const Lengths& l) const {
-  return cotangent(l.bc, l.ca, l.ab) + cotangent(l.ad, l.db, l.ab);
+// The cotangents of the two angles that face the diagonal ab of the quadrilateral a, d, b, c.
+template <typename Length>
+double SurfaceTriangulation::facing_cotangents(int a, int b, int c, int d, const Length& length) {
+  const double ab = length(a, b);
+  return cotangent(length(b, c), length(c, a), ab) + cotangent(length(a, d), length(d, b), ab);
 }
 
 bool SurfaceTriangulation::is_delaunay(int e) const {
   if (mesh_.fixed(e)) return true;
   const int a = mesh_.origin(e), b = mesh_.target(e), c = mesh_.apex(e), d = mesh_.apex(mesh_.twin(e));
-  const auto measure = [&](auto&& length) {
-    return cotangent_sum({length(a, b), length(b, c), length(c, a), length(a, d), length(d, b)});
+  const auto estimated = [this](int p, int q) { return estimated_length(p, q); };
+  const auto geodesic = [this](int p, int q) {
+    return decide_by_geodesics_ ? geodesic_length(p, q) : estimated_length(p, q);
   };
-  const double estimate = measure([this](int p, int q) { return estimated_length(p, q); });
-  if (std::abs(estimate) > kDoubt) return estimate > 0.0;
-  return measure([this](int p, int q) { return geodesic_length(p, q); }) >= -kTie;
+  const double estimate = facing_cotangents(a, b, c, d, estimated);
+  if (estimate > kDoubt) return true;
+  // On a crease both diagonals can look wrong: the better one stays, or flipping would not end.
+  if (estimate < -kDoubt) return facing_cotangents(c, d, a, b, estimated) <= estimate;
+  const double exact = facing_cotangents(a, b, c, d, geodesic);
+  return exact >= -kTie || facing_cotangents(c, d, a, b, geodesic) <= exact + kTie;
 }
 
 bool SurfaceTriangulation::flip_allowed(int e) const {

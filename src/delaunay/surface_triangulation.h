@@ -34,6 +34,10 @@ class SurfaceTriangulation {
   double geodesic_length(int a, int b) const;
   int estimates_used() const { return estimates_used_; }
 
+  /// Whether close decisions are made with geodesic lengths (the default) or, while most vertices are still to be
+  /// replaced, with estimates.
+  void decide_by_geodesics(bool yes) { decide_by_geodesics_ = yes; }
+
   /// Whether the triangle faces the side of the surface's normals.
   bool upright(const MeshVertex& a, const MeshVertex& b, const MeshVertex& c) const;
   bool upright(int t) const;
@@ -41,7 +45,8 @@ class SurfaceTriangulation {
   double circumradius(int t) const;
   Xyz circumcentre(int t) const;
 
-  /// Whether the edge may stay: fixed, or the angles that face it sum to at most pi, measured with geodesic lengths.
+  /// Whether the edge may stay: fixed, or the angles that face it sum to at most pi, measured with geodesic lengths (or
+  /// the other diagonal is no better, which happens across creases alone).
   bool is_delaunay(int e) const;
   /// Flips edges, beginning with `edges`, until every one that may be flipped is_delaunay.
   void flip_to_delaunay(std::vector<int> edges);
@@ -62,10 +67,8 @@ class SurfaceTriangulation {
   bool move(int v, const MeshVertex& to);
 
  private:
-  struct Lengths {
-    double ab, bc, ca, ad, db;
-  };
-  double cotangent_sum(const Lengths& l) const;
+  template <typename Length>
+  static double facing_cotangents(int a, int b, int c, int d, const Length& length);
   Uv reference_parameters(int t, const Xyz& point) const;
   UvVec weight() const { return {probe_.u_speed(), probe_.v_speed()}; }
   bool flip_allowed(int e) const;
@@ -74,6 +77,7 @@ class SurfaceTriangulation {
   std::vector<MeshVertex> vertices_;
   const SurfaceProbe& probe_;
   const SizeRule& rule_;
+  bool decide_by_geodesics_ = true;
   mutable int estimates_used_ = 0;
 };
 
