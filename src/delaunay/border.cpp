@@ -17,6 +17,9 @@ constexpr int kStationsPerPiece = 24;
 // However coarse the rule: a segment turns by no more than this, so that a hole stays a hole.
 constexpr double kLargestTurn = std::numbers::pi / 4;
 
+// A border point's size is at most this many times the length of its segments.
+constexpr double kFollow = 1.3;
+
 struct Use {
   int face;
   const Coedge* coedge;
@@ -209,6 +212,13 @@ void Sampler::place(int edge) {
   }
   out.points.push_back(closed ? out.points.front() : vertex_point(e.last_vertex, edge, e.range.hi));
   out.t.push_back(e.range.hi);
+  // Where the points had to be closer than the rule asks, the mesh beside them has to follow.
+  for (int k = 0; k < n; ++k) {
+    const int a = out.points[k], b = out.points[k + 1];
+    const double spacing = kFollow * (result_.points[b] - result_.points[a]).norm();
+    result_.size[a] = std::min(result_.size[a], spacing);
+    result_.size[b] = std::min(result_.size[b], spacing);
+  }
 }
 
 BorderPoints Sampler::run() {

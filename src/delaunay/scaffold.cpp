@@ -148,8 +148,8 @@ void Builder::consider(int edge) {
   const double cosine = std::min(
       {a.n.dot(b.n), 2.0 * a.n.dot(middle) * a.n.dot(middle) - 1.0, 2.0 * b.n.dot(middle) * b.n.dot(middle) - 1.0});
   const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
-  // The smallest length that is worth halving: below it a turning normal means a crease, not curvature.
-  const double floor = 0.05 * std::min(rule_.size, std::max(rule_.min_size, 1e-3 * rule_.size));
+  // Where the normal turns on edges shorter than any rule asks for there is a crease, and halving would not mend it.
+  const double floor = 0.5 * std::min(h, std::min(rule_.min_size, rule_.size));
   double ratio = length / (kSlack * h);
   if (length > floor) ratio = std::max(ratio, turn / kLargestTurn);
   if (ratio > 1.0) queue_.push({ratio, edge, mesh_.origin(edge), mesh_.target(edge)});
