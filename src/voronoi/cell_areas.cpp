@@ -1,5 +1,7 @@
 #include "voronoi/cell_areas.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -52,28 +54,45 @@ class AreaRule {
     return sum * (p.s / kRayPieces) * 2.0 / 45.0;
   }
 
-  // Between stored points radius and angle are cubics, by their values and slopes.
+  // The integrand A dt/dsigma is known exactly at the stored points and is smooth in the arc length sigma even where
+  // the edge runs close by its site and t changes fast (on a plane it is constant): the trapezoidal rule with end
+  // corrections.
   double along_edge(int site, const CellPiece& piece) const {
     const DiagramEdge& e = diagram_.edges[piece.edge];
-    double sum = 0.0;
-    for (size_t i = 0; i + 1 < e.points.size(); ++i) {
-      const EdgePoint &a = e.points[i], &b = e.points[i + 1];
-      const double t0 = piece.reversed ? a.right_angle : a.left_angle,
-                   d0 = piece.reversed ? a.right_slope : a.left_slope;
-      const double t1 = t0 + wrap_angle((piece.reversed ? b.right_angle : b.left_angle) - t0);
-      const double d1 = piece.reversed ? b.right_slope : b.left_slope;
-      const double h = (b.xyz - a.xyz).norm();
-      for (int k = 0; k < 3; ++k) {
-        const double x = kNodes[k], z = 1.0 - x;
-        const auto cubic = [&](double f0, double s0, double f1, double s1) {
-          return z * z * (1 + 2 * x) * f0 + x * x * (3 - 2 * x) * f1 + h * x * z * (z * s0 - x * s1);
-        };
-        const double slope = 6 * x * z * (t1 - t0) + h * (z * (1 - 3 * x) * d0 + x * (3 * x - 2) * d1);
-        const Polar p = {cubic(a.radius, a.radius_slope, b.radius, b.radius_slope), cubic(t0, d0, t1, d1)};
-        sum += kWeights[k] * slope * sector(site, p);
-      }
+    std::vector<double> f, way = {0.0};
+    for (size_t i = 0; i < e.points.size(); ++i) {
+      const EdgePoint& p = e.points[i];
+      const double t = piece.reversed ? p.right_angle : p.left_angle;
+      f.push_back((piece.reversed ? -p.right_slope : p.left_slope) * sector(site, {p.radius, t}));
+      if (i > 0) way.push_back(way.back() + arc_length(e, i - 1));
     }
-    return piece.reversed ? -sum : sum;
+    double sum = 0.0;
+    for (size_t i = 0; i + 1 < f.size(); ++i) {
+      const double h = way[i + 1] - way[i];
+      sum += h * (0.5 * (f[i] + f[i + 1]) + h / 12.0 * (slope(way, f, i) - slope(way, f, i + 1)));
+    }
+    return sum;
+  }
+
+  /// Of the edge between points i and i + 1: the chord, and what a circle through three points adds to it.
+  static double arc_length(const DiagramEdge& e, size_t i) {
+    const double chord = (e.points[i + 1].xyz - e.points[i].xyz).norm();
+    if (e.points.size() < 3) return chord;
+    const size_t k = std::min(i, e.points.size() - 3);
+    const Xyz a = e.points[k + 1].xyz - e.points[k].xyz, b = e.points[k + 2].xyz - e.points[k + 1].xyz;
+    const double curvature = 2.0 * a.cross(b).norm() / (a.norm() * b.norm() * (a + b).norm());
+    const double bend = curvature * chord;
+    return chord * (1.0 + (std::isfinite(bend) ? bend * bend / 24.0 : 0.0));
+  }
+
+  /// Derivative of f at place i, of the parabola through three neighbouring places.
+  static double slope(const std::vector<double>& x, const std::vector<double>& f, size_t i) {
+    if (x.size() < 3) return 0.0;
+    const size_t k = std::clamp<size_t>(i, 1, x.size() - 2);
+    const double h0 = x[k] - x[k - 1], h1 = x[k + 1] - x[k];
+    if (!(h0 > 0.0 && h1 > 0.0)) return 0.0;
+    const double d0 = (f[k] - f[k - 1]) / h0, d1 = (f[k + 1] - f[k]) / h1, second = (d1 - d0) / (h0 + h1);
+    return d0 + second * (2.0 * (x[i] - x[k - 1]) - h0);
   }
 
   // A segment's slope in t is its way along N divided by y.

@@ -22,7 +22,7 @@ constexpr double kShortestStep = 1e-9;
 constexpr double kMostTurn = 0.25;
 
 // Nor may a step swing the geodesics from the sites by more than this (radians), as happens near the sites.
-constexpr double kMostSwing = 0.4;
+constexpr double kMostSwing = 0.2;
 
 // See ChainTracer::predict.
 constexpr double kSmallCorrection = 0.3;
@@ -32,10 +32,6 @@ constexpr int kMostSteps = 200000;
 
 // Part of the first chord of a chain that starts on the border in which the start itself would be met.
 constexpr double kOffBorder = 1e-3;
-
-// Generators whose distances agree to this part of the radius make one vertex: well above the noise of distances, and
-// far below the sharpness of the diagram that the format promises.
-constexpr double kOneVertex = 1e-10;
 
 constexpr int kBorderIterations = 30;
 constexpr int kMostRivalsInTurn = 12;

@@ -57,6 +57,10 @@ class ChainTracer {
   double tolerance_;
 };
 
+/// Generators whose distances agree to this part of the radius make one vertex: well above the noise of distances, and
+/// far below the sharpness that the diagram promises.
+inline constexpr double kOneVertex = 1e-10;
+
 /// The generators of a point sorted counter-clockwise by the directions in which their sites lie, `first` first.
 void sort_around(std::vector<SiteRay>& generators);
 

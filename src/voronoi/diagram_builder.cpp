@@ -86,6 +86,7 @@ class DiagramBuilder {
   void trace_seed(const LabelChange& change);
   void trace_open_spokes();
   void trace_spoke(SpokeRef start, bool on_border);
+  std::vector<SiteRay> generators_at(const BisectorPoint& m) const;
   bool covered(const SiteRay& a, const SiteRay& b) const;
   std::optional<SpokeRef> arrive(const Chain& chain);
   void add_edge(const std::vector<BisectorPoint>& points, SpokeRef start, SpokeRef end);
@@ -214,12 +215,21 @@ void DiagramBuilder::trace_seed(const LabelChange& change) {
   if (!domain_.contains(uv) || covered(change.before, change.after)) return;
   if (domain_.distance_to_border(uv) < kMerge * change.before.polar.s) return;  // found by scan_border
   const BisectorPoint seed{change.before, change.after};
+  if (const auto generators = generators_at(seed); generators.size() > 2) {
+    spokes_.ensure_inside(generators);
+    trace_open_spokes();
+    return;
+  }
   const Chain onward = tracer_.trace(seed, false);
   if (onward.end == ChainEnd::Closed) {
     diagram_.edges.push_back(make_edge(onward.points));
     return;
   }
   const Chain back = tracer_.trace({seed.right, seed.left}, false);
+  if (onward.points.size() == 1 && back.points.size() == 1 && seed.left.site == seed.right.site) {
+    warn("cut_locus", seed, "all geodesics from this site meet again near here; its cut locus is not traced");
+    return;
+  }
   const auto end = arrive(onward), start = arrive(back);
   if (!end || !start) {
     warn("unresolved", seed, "the edge through this point does not fit into the diagram");
@@ -231,6 +241,18 @@ void DiagramBuilder::trace_seed(const LabelChange& change) {
   points.insert(points.end(), onward.points.begin() + 1, onward.points.end());
   add_edge(points, *start, *end);
   trace_open_spokes();
+}
+
+// The path may run through a vertex just where the label changes.
+std::vector<SiteRay> DiagramBuilder::generators_at(const BisectorPoint& m) const {
+  std::vector<SiteRay> generators = {m.left, m.right};
+  for (const SiteRay& ray : labels_.around(m.left.uv)) {
+    const auto same = [&](const SiteRay& g) { return same_generator(g, ray); };
+    if (std::any_of(generators.begin(), generators.end(), same)) continue;
+    if (std::abs(ray.polar.s - m.radius()) <= kOneVertex * m.radius()) generators.push_back(ray);
+  }
+  sort_around(generators);
+  return generators;
 }
 
 void DiagramBuilder::trace_open_spokes() {

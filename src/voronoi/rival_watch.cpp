@@ -6,6 +6,9 @@
 namespace geovor {
 namespace {
 
+// See kSameGuess in labels.cpp.
+constexpr double kSameGuess = 0.25;
+
 // Chords are shorter than the way along the edge; their difference is far below this part.
 constexpr double kChordSlack = 1.02;
 
@@ -30,10 +33,17 @@ RivalWatch::Rival RivalWatch::measure(const SiteRay& ray, const BisectorPoint& m
   return {ray, ray.polar.s - m.radius(), ray.T.dot(m.tangent()) - bisector_slope(m).radius, at};
 }
 
-bool RivalWatch::listed_alone(const SiteRay& candidate, const std::vector<SiteRay>& list) const {
-  const auto same_site = [&](const auto& other) { return other.site == candidate.site; };
-  if (std::count_if(list.begin(), list.end(), same_site) > 1) return false;
-  return std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) { return same_site(r.ray); });
+// Whether a candidate at a corner is a geodesic that is watched already, told from polar coordinates carried to the
+// last accepted point; a doubt costs one more connection.
+bool RivalWatch::known(const SiteRay& candidate, double reach) const {
+  const Polar here = carry(candidate, last_.position());
+  const auto same = [&](const SiteRay& ray) {
+    if (ray.site != candidate.site) return false;
+    const Polar there = carry(ray, last_.position());
+    return std::abs(here.s - there.s) + std::abs(ray.y * wrap_angle(here.t - there.t)) < kSameGuess * reach;
+  };
+  return same(last_.left) || same(last_.right) ||
+         std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) { return same(r.ray); });
 }
 
 // New candidates come with the corners of the lattice cell around m; they are measured at the last accepted point, so
@@ -43,7 +53,7 @@ void RivalWatch::enlist(const BisectorPoint& m) {
     if (std::find(corners_seen_.begin(), corners_seen_.end(), corner) != corners_seen_.end()) continue;
     corners_seen_.push_back(corner);
     for (const SiteRay& candidate : labels_.at(corner)) {
-      if (listed_alone(candidate, labels_.at(corner))) continue;
+      if (known(candidate, labels_.lattice().reach(corner))) continue;
       const auto ray = labels_.rays().to(candidate.site, last_.left.uv, carry(candidate, last_.position()));
       if (!ray || same_generator(*ray, last_.left) || same_generator(*ray, last_.right)) continue;
       const auto same = [&](const Rival& r) { return same_generator(r.ray, *ray); };

@@ -37,7 +37,7 @@ class RivalWatch {
     double at;  ///< way travelled when it was looked at
   };
   void enlist(const BisectorPoint& m);
-  bool listed_alone(const SiteRay& candidate, const std::vector<SiteRay>& list) const;
+  bool known(const SiteRay& candidate, double reach) const;
   Rival measure(const SiteRay& ray, const BisectorPoint& m, double at) const;
 
   const CandidateLabels& labels_;

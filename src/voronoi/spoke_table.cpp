@@ -55,6 +55,15 @@ std::optional<SpokeRef> SpokeTable::arrive_on_border(BorderPlace place, const Bi
   return start_on_border(place, {last.right, last.left});
 }
 
+void SpokeTable::ensure_inside(const std::vector<SiteRay>& generators) {
+  const SiteRay &right = generators[0], &left = generators[1];
+  for (const Vertex& v : vertices_) {
+    if (v.data.on_boundary || !((v.data.xyz - right.x).norm() < merge_)) continue;
+    if (spoke_between(v, right, left)) return;
+  }
+  add(generators, static_cast<int>(generators.size()));
+}
+
 // Several edges may end in one point of the border: each new one must share a generator with the first or the last of
 // those that are there.
 std::optional<SpokeRef> SpokeTable::extend_border_vertex(int i, const BisectorPoint& outwards) {

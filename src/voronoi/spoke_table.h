@@ -22,6 +22,9 @@ class SpokeTable {
   SpokeTable(const FaceDomain& domain, const FaceBorder& border, double merge)
       : domain_(domain), border_(border), merge_(merge) {}
 
+  /// Makes a vertex inside the face where these generators, counter-clockwise, have none yet.
+  void ensure_inside(const std::vector<SiteRay>& generators);
+
   /// The spoke by which a chain arrives whose last point has these rays to its left and right. Makes the vertex where
   /// there is none yet. Nothing if the vertex has no such spoke.
   std::optional<SpokeRef> arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last);

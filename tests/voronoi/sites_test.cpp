@@ -1,0 +1,82 @@
+// What sites must fulfil, and places chosen for them.
+#include "voronoi/sites.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "geodesic/distance.h"
+#include "test_faces.h"
+#include "voronoi/place_sites.h"
+
+namespace geovor::testing {
+namespace {
+
+TEST(CheckSites, NamesTheSiteThatLiesOutside) {
+  const TestFace face = plane_square();
+  try {
+    check_sites(face.domain(), {{0, 0}, {0.5, 1.2}, {3, 3}}, 1e-7);
+    FAIL() << "no error";
+  } catch (const SiteError& e) {
+    EXPECT_EQ(e.code(), ErrorCode::Usage);
+    EXPECT_EQ(e.site(), 1);
+    EXPECT_EQ(e.other(), -1);
+  }
+}
+
+TEST(CheckSites, NamesBothOfTwoEqualSites) {
+  const TestFace face = plane_square();
+  try {
+    check_sites(face.domain(), {{0.5, 0}, {0, 0.5}, {-0.5, 0}, {1e-9, 0.5}, {0.5, 1e-9}}, 1e-7);
+    FAIL() << "no error";
+  } catch (const SiteError& e) {
+    EXPECT_EQ(e.site(), 0);
+    EXPECT_EQ(e.other(), 4);
+  }
+}
+
+TEST(CheckSites, FindsEqualSitesOnBothSidesOfASeam) {
+  const TestFace face = TestFace(std::make_shared<Cylinder>(Frame{}, 1.0)).ring({{0, 2 * kPi}, {0, 3}});
+  EXPECT_THROW(check_sites(face.domain(), {{0, 1}, {2 * kPi, 1}}, 1e-7), SiteError);
+}
+
+TEST(CheckSites, TakesSitesOnTheBorder) {
+  const TestFace face = plane_square();
+  EXPECT_NO_THROW(check_sites(face.domain(), {{1, 0}, {-1, -1}, {0, 1 + 1e-9}}, 1e-7));
+}
+
+TEST(CheckSites, RejectsNumbersThatAreNotFinite) {
+  const TestFace face = plane_square();
+  EXPECT_THROW(check_sites(face.domain(), {{std::numeric_limits<double>::quiet_NaN(), 0}}, 1e-7), SiteError);
+}
+
+TEST(PlaceSites, SpreadsThemOverTheFace) {
+  const TestFace face = whole(std::make_shared<WaveSurface>(UvBox{{-2, 2}, {-2, 2}}));
+  const FaceDomain domain = face.domain();
+  const auto sites = place_sites(domain, 25, 1);
+  ASSERT_EQ(sites.size(), 25u);
+  EXPECT_NO_THROW(check_sites(domain, sites, 1e-7));
+  double nearest = 1e9;
+  for (size_t i = 0; i < sites.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      nearest = std::min(nearest, (domain.surface().position(sites[i]) - domain.surface().position(sites[j])).norm());
+    }
+  }
+  // Discs of this diameter about the sites fill at least a third of an area of about 21.
+  EXPECT_GT(nearest, std::sqrt(21.0 / 25 * 4 / kPi / 3));
+}
+
+TEST(PlaceSites, GivesTheSamePlacesForTheSameSeedOnly) {
+  const TestFace face = plane_square();
+  const FaceDomain domain = face.domain();
+  EXPECT_EQ(place_sites(domain, 9, 4), place_sites(domain, 9, 4));
+  EXPECT_NE(place_sites(domain, 9, 4), place_sites(domain, 9, 5));
+}
+
+TEST(PlaceSites, RejectsANumberThatIsNotPositive) {
+  const TestFace face = plane_square();
+  EXPECT_THROW(place_sites(face.domain(), 0, 1), Error);
+}
+
+}  // namespace
+}  // namespace geovor::testing
