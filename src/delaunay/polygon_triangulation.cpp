@@ -15,7 +15,8 @@
 namespace geovor {
 namespace {
 
-constexpr double kGrid = 1073741824.0;  // 2^30
+constexpr std::int64_t kGridCells = std::int64_t{1} << 30;
+constexpr double kGrid = static_cast<double>(kGridCells);
 
 struct Lattice {
   std::int64_t x = 0;
@@ -32,11 +33,13 @@ int orient(const Lattice& a, const Lattice& b, const Lattice& c) {
 
 class Builder {
  public:
-  Builder(const std::vector<std::vector<Uv>>& loops, double aspect);
+  Builder(const std::vector<std::vector<Uv>>& loops, const std::vector<Uv>& inner, double aspect);
   PolygonTriangulation run();
 
  private:
   bool insert_point(int v);
+  void insert_inner();
+  void put(int v, int t, int on_edge);
   int locate(const Lattice& p, int& on_edge) const;
   void legalize(std::vector<int> edges);
   bool improves(int e) const;
@@ -49,13 +52,15 @@ class Builder {
   std::vector<int> loop_sizes_;
   std::vector<Lattice> points_;  // of the polygon, then the three of the triangle around it
   double aspect_;
+  int border_count_ = 0;
   int count_ = 0;
   HalfEdges mesh_;
   mutable int last_ = 0;
   PolygonTriangulation result_;
 };
 
-Builder::Builder(const std::vector<std::vector<Uv>>& loops, double aspect) : aspect_(aspect) {
+Builder::Builder(const std::vector<std::vector<Uv>>& loops, const std::vector<Uv>& inner, double aspect)
+    : aspect_(aspect) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   UvBox box{{kInf, -kInf}, {kInf, -kInf}};
   for (const auto& loop : loops) {
@@ -71,9 +76,11 @@ Builder::Builder(const std::vector<std::vector<Uv>>& loops, double aspect) : asp
   for (const auto& loop : loops) {
     for (Uv p : loop) points_.push_back({snap(p.u, box.u), snap(p.v, box.v)});
   }
+  border_count_ = static_cast<int>(points_.size());
+  for (Uv p : inner) points_.push_back({snap(p.u, box.u), snap(p.v, box.v)});
   count_ = static_cast<int>(points_.size());
   // A triangle that holds the box [0, 2^30]^2 well inside; its coordinates stay below 2^33.
-  const std::int64_t g = std::int64_t{1} << 30;
+  const std::int64_t g = kGridCells;
   points_.push_back({-2 * g, -g});
   points_.push_back({4 * g, -g});
   points_.push_back({g / 2, 5 * g});
@@ -116,6 +123,11 @@ bool Builder::insert_point(int v) {
       return false;
     }
   }
+  put(v, t, on_edge);
+  return true;
+}
+
+void Builder::put(int v, int t, int on_edge) {
   if (on_edge == HalfEdges::kNone) {
     mesh_.split_triangle(t, v);
   } else {
@@ -124,7 +136,21 @@ bool Builder::insert_point(int v) {
   std::vector<int> opposite;
   for (int e : mesh_.star(v)) opposite.push_back(HalfEdges::next(e));
   legalize(opposite);
-  return true;
+}
+
+// Inner points that fall on the border or on another point are not needed.
+void Builder::insert_inner() {
+  for (int v = border_count_; v < count_; ++v) {
+    const Lattice& p = points_[v];
+    if (p.x < 0 || p.y < 0 || p.x > kGridCells || p.y > kGridCells) continue;
+    int on_edge = HalfEdges::kNone;
+    const int t = locate(p, on_edge);
+    if (on_edge != HalfEdges::kNone && mesh_.fixed(on_edge)) continue;
+    const auto corners = mesh_.corners(t);
+    if (std::any_of(corners.begin(), corners.end(), [&](int c) { return points_[c].x == p.x && points_[c].y == p.y; }))
+      continue;
+    put(v, t, on_edge);
+  }
 }
 
 bool Builder::convex(int e) const {
@@ -260,7 +286,7 @@ HalfEdges Builder::region() const {
 
 PolygonTriangulation Builder::run() {
   result_.ok = true;
-  for (int v = 0; v < count_; ++v) {
+  for (int v = 0; v < border_count_; ++v) {
     if (!insert_point(v)) return result_;
   }
   int first = 0;
@@ -270,6 +296,7 @@ PolygonTriangulation Builder::run() {
     }
     first += size;
   }
+  insert_inner();
   result_.triangles = region();
   if (result_.triangles.triangle_count() == 0) fail("its border encloses nothing", {});
   return result_;
@@ -277,8 +304,9 @@ PolygonTriangulation Builder::run() {
 
 }  // namespace
 
-PolygonTriangulation triangulate_polygon(const std::vector<std::vector<Uv>>& loops, double aspect) {
-  return Builder(loops, aspect).run();
+PolygonTriangulation triangulate_polygon(const std::vector<std::vector<Uv>>& loops, const std::vector<Uv>& inner,
+                                         double aspect) {
+  return Builder(loops, inner, aspect).run();
 }
 
 }  // namespace geovor

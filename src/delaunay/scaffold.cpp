@@ -50,12 +50,15 @@ class Builder {
   };
 
   void collect_border();
-  bool triangulate();
+  bool triangulate(const std::vector<Uv>& inner);
+  std::vector<Uv> lattice() const;
   void halve_edges();
   void consider(int edge);
   PlaneVertex make_vertex(Uv uv, double h_bound) const;
   double image_length(int edge) const;
   double image_length(int from, int to) const;
+  double image_length(Uv a, Uv b) const;
+  UvBox border_box() const;
   bool flip_shortens(int edge) const;
   void shorten(std::vector<int> edges);
   int end_of_longest_path(int edge) const;
@@ -112,10 +115,10 @@ void Builder::collect_border() {
   }
 }
 
-bool Builder::triangulate() {
+bool Builder::triangulate(const std::vector<Uv>& inner) {
   UvBox box = probe_.box();
   const double aspect = probe_.v_speed() * box.v.length() / (probe_.u_speed() * box.u.length());
-  PolygonTriangulation flat = triangulate_polygon(loops_, std::isfinite(aspect) && aspect > 0.0 ? aspect : 1.0);
+  PolygonTriangulation flat = triangulate_polygon(loops_, inner, std::isfinite(aspect) && aspect > 0.0 ? aspect : 1.0);
   if (!flat.ok) {
     result_.why = flat.why;
     for (int p : flat.bad_points) result_.bad_points.push_back(vertices_[p].border);
@@ -125,10 +128,47 @@ bool Builder::triangulate() {
   return true;
 }
 
+// The middles of boxes that are no longer, in space, than the size wanted there: each box is halved across its longer
+// side.
+std::vector<Uv> Builder::lattice() const {
+  std::vector<Uv> middles;
+  std::vector<UvBox> boxes = {border_box()};
+  while (!boxes.empty() && middles.size() < static_cast<size_t>(kMostVertices)) {
+    const UvBox box = boxes.back();
+    boxes.pop_back();
+    const Uv middle{box.u.middle(), box.v.middle()};
+    const double h = kSlack * rule_.at(probe_.at(middle).curvature);
+    const double across = image_length({box.u.lo, middle.v}, {box.u.hi, middle.v});
+    const double along = image_length({middle.u, box.v.lo}, {middle.u, box.v.hi});
+    if (!(std::max(across, along) > h)) {
+      middles.push_back(middle);
+    } else if (across > along) {
+      boxes.push_back({{middle.u, box.u.hi}, box.v});
+      boxes.push_back({{box.u.lo, middle.u}, box.v});
+    } else {
+      boxes.push_back({box.u, {middle.v, box.v.hi}});
+      boxes.push_back({box.u, {box.v.lo, middle.v}});
+    }
+  }
+  return middles;
+}
+
+UvBox Builder::border_box() const {
+  UvBox box{{loops_[0][0].u, loops_[0][0].u}, {loops_[0][0].v, loops_[0][0].v}};
+  for (const auto& loop : loops_) {
+    for (Uv p : loop) {
+      box.u = {std::min(box.u.lo, p.u), std::max(box.u.hi, p.u)};
+      box.v = {std::min(box.v.lo, p.v), std::max(box.v.hi, p.v)};
+    }
+  }
+  return box;
+}
+
 double Builder::image_length(int edge) const { return image_length(mesh_.origin(edge), mesh_.target(edge)); }
 
-double Builder::image_length(int from, int to) const {
-  const Uv a = vertices_[from].uv, b = vertices_[to].uv;
+double Builder::image_length(int from, int to) const { return image_length(vertices_[from].uv, vertices_[to].uv); }
+
+double Builder::image_length(Uv a, Uv b) const {
   double sum = 0.0;
   Xyz last = probe_.position(a);
   for (int i = 1; i <= kPieces; ++i) {
@@ -300,12 +340,18 @@ Scaffold Builder::sew() const {
 
 std::vector<int> Builder::faults() {
   collect_border();
-  return triangulate() ? std::vector<int>{} : result_.bad_points;
+  return triangulate({}) ? std::vector<int>{} : result_.bad_points;
 }
 
 Scaffold Builder::run() {
   collect_border();
-  if (!triangulate()) return result_;
+  if (loops_.empty() || loops_[0].empty()) {
+    result_.why = "it has no border";
+    return result_;
+  }
+  const std::vector<Uv> inner = lattice();
+  if (!triangulate(inner)) return result_;
+  for (Uv p : inner) vertices_.push_back(make_vertex(p, rule_.size));
   halve_edges();
   if (!result_.why.empty()) return result_;
   return sew();

@@ -56,7 +56,7 @@ TEST(PolygonTriangulation, KeepsCollinearPointsOfASquaresSides) {
   for (int i = 0; i < 8; ++i) loop.push_back({1, i / 8.0});
   for (int i = 0; i < 8; ++i) loop.push_back({1 - i / 8.0, 1});
   for (int i = 0; i < 8; ++i) loop.push_back({0, 1 - i / 8.0});
-  const auto r = triangulate_polygon({loop}, 1.0);
+  const auto r = triangulate_polygon({loop}, {}, 1.0);
   expect_covers({loop}, r);
   EXPECT_EQ(r.triangles.triangle_count(), 30);  // n - 2
 }
@@ -64,9 +64,20 @@ TEST(PolygonTriangulation, KeepsCollinearPointsOfASquaresSides) {
 TEST(PolygonTriangulation, LeavesHolesOpen) {
   const Loops loops = {circle({0, 0}, 1, 60, false), circle({0.4, 0}, 0.3, 25, true),
                        circle({-0.5, 0.1}, 0.2, 7, true)};
-  const auto r = triangulate_polygon(loops, 1.0);
+  const auto r = triangulate_polygon(loops, {}, 1.0);
   expect_covers(loops, r);
   EXPECT_EQ(r.triangles.triangle_count(), 60 + 25 + 7 - 2 + 2 * 2);  // n - 2 + 2 holes
+}
+
+TEST(PolygonTriangulation, TakesInnerPointsAndLeavesOutThoseOutsideOrOnTheBorder) {
+  const Loops loops = {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 2}, {2, 2}, {2, 1}}};
+  const std::vector<Uv> inner = {{3, 3}, {1.5, 1.5}, {3, 0}, {3, 3}, {0.5, 0.5}};
+  const auto r = triangulate_polygon(loops, inner, 1.0);
+  ASSERT_TRUE(r.ok) << r.why;
+  std::vector<bool> used;
+  for (int v = 8; v < 13; ++v) used.push_back(r.triangles.outgoing(v) != HalfEdges::kNone);
+  EXPECT_EQ(used, (std::vector<bool>{true, false, false, false, true}));
+  EXPECT_EQ(r.triangles.triangle_count(), 8 - 2 + 2 + 2 * 2);  // n - 2 + 2 holes, and two more for each inner point
 }
 
 TEST(PolygonTriangulation, HandlesACombWithThinTeeth) {
@@ -76,19 +87,19 @@ TEST(PolygonTriangulation, HandlesACombWithThinTeeth) {
     loop.push_back({i - 0.501, 1});
     loop.push_back({i - 1.0 + 1e-3, 0.5});
   }
-  const auto r = triangulate_polygon({loop}, 40.0);
+  const auto r = triangulate_polygon({loop}, {}, 40.0);
   expect_covers({loop}, r);
 }
 
 TEST(PolygonTriangulation, SaysWhereTheBorderCrossesItself) {
-  const auto r = triangulate_polygon({{{0, 0}, {1, 1}, {1, 0}, {0, 1}}}, 1.0);
+  const auto r = triangulate_polygon({{{0, 0}, {1, 1}, {1, 0}, {0, 1}}}, {}, 1.0);
   EXPECT_FALSE(r.ok);
   EXPECT_FALSE(r.why.empty());
   EXPECT_EQ(r.bad_points.size(), 4u);
 }
 
 TEST(PolygonTriangulation, SaysThatPointsCoincide) {
-  const auto r = triangulate_polygon({{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}, 1.0);
+  const auto r = triangulate_polygon({{{0, 0}, {1, 0}, {1, 0}, {0, 1}}}, {}, 1.0);
   EXPECT_FALSE(r.ok);
   EXPECT_EQ(r.why, "two points of its border coincide");
 }
