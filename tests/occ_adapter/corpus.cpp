@@ -1,5 +1,6 @@
 #include "occ_adapter/corpus.h"
 
+#include <unistd.h>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
@@ -9,6 +10,7 @@
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -52,7 +54,16 @@ std::vector<TopoDS_Face> faces_of(const TopoDS_Shape& shape) {
 }
 
 std::string scratch_folder(const std::string& name) {
-  const fs::path folder = fs::temp_directory_path() / ("geovor-occ-adapter-" + name);
+  // Of this process alone, because tests run at the same time; gone when it ends.
+  struct Root {
+    fs::path path = fs::temp_directory_path() / ("geovor-occ-adapter-" + std::to_string(::getpid()));
+    ~Root() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+  };
+  static const Root root;
+  const fs::path folder = root.path / name;
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder.string();
