@@ -23,10 +23,17 @@ void DepthMap::add_triangle(const PagePoint& a, const PagePoint& b, const PagePo
   }
 }
 
+// The squares around have a say too, so that a pinhole between two patches shows nothing of what is behind.
 bool DepthMap::hides(const PagePoint& p, double slack) const {
   const int row = static_cast<int>(std::floor(p.y)), column = static_cast<int>(std::floor(p.x));
-  if (row < 0 || row >= height_ || column < 0 || column >= width_) return false;
-  return depth_[static_cast<std::size_t>(row) * width_ + column] > p.depth + slack;
+  int squares = 0, hiding = 0;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, height_ - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, width_ - 1); ++c) {
+      ++squares;
+      hiding += depth_[static_cast<std::size_t>(r) * width_ + c] > p.depth + slack ? 1 : 0;
+    }
+  }
+  return 2 * hiding > squares;
 }
 
 }  // namespace geovor

@@ -46,8 +46,11 @@ class DiagramPicture {
 
   std::string svg() {
     append_head();
+    text_ += "<g shape-rendering=\"crispEdges\" stroke=\"none\">\n";  // no hairlines between patches
     append_space_patches();
     append_plane_patches();
+    text_ += "</g>\n";
+    append_plane_frame();
     for (size_t i = 0; i < raster_.border.size(); ++i) {
       append_space_line(raster_.border[i], "b");
       append_plane_line(raster_.border_uv[i], "b");
@@ -97,6 +100,7 @@ class DiagramPicture {
   void append_head();
   void append_space_patches();
   void append_plane_patches();
+  void append_plane_frame();
   void append_polygon(const std::array<PagePoint, 4>& corners, const std::string& fill);
   std::string tint(int site, const Xyz& normal) const;
   void append_space_line(const std::vector<Xyz>& line, const char* style);
@@ -121,8 +125,9 @@ void DiagramPicture::append_head() {
            "\" viewBox=\"0 0 " + width + ' ' + height + "\">\n<title>Geodesic Voronoi diagram of " +
            std::to_string(diagram_.sites.size()) + " sites</title>\n";
   text_ +=
-      "<style>path{stroke-linejoin:round;stroke-linecap:round;fill:none}"
-      ".e{stroke:#1c2733;stroke-width:2.2}.c{stroke:#1c2733;stroke-width:1.6;stroke-dasharray:1 5}"
+      "<style>path{stroke-linejoin:round;stroke-linecap:round}.e,.c,.b,.d,.f{fill:none}"
+      ".f{stroke:#1c2733;stroke-opacity:.3;stroke-width:1}.e{stroke:#1c2733;stroke-width:2.2}.c{stroke:#1c2733;stroke-"
+      "width:1.6;stroke-dasharray:1 5}"
       ".b{stroke:#1c2733;stroke-width:1.3}.d{stroke:#1c2733;stroke-opacity:.45;stroke-width:.9;stroke-dasharray:6 5}"
       "circle{fill:#1c2733;stroke:#fff;stroke-width:1.2}</style>\n";
   text_ += "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"#fbfbfa\"/>\n";
@@ -136,8 +141,7 @@ std::string DiagramPicture::tint(int site, const Xyz& normal) const {
 void DiagramPicture::append_polygon(const std::array<PagePoint, 4>& corners, const std::string& fill) {
   text_ += "<path d=\"";
   for (int k = 0; k < 4; ++k) append_point(k == 0 ? 'M' : 'L', corners[k]);
-  // A thin line of the same colour closes the hairlines between patches.
-  text_ += "Z\" style=\"fill:" + fill + ";stroke:" + fill + ";stroke-width:.7\"/>\n";
+  text_ += "Z\" fill=\"" + fill + "\"/>\n";
 }
 
 void DiagramPicture::append_space_patches() {
@@ -156,6 +160,17 @@ void DiagramPicture::append_space_patches() {
     if (n.dot(view_.towards_viewer()) < 0.0) n = -n;
     append_polygon({view_(p.xyz[0]), view_(p.xyz[1]), view_(p.xyz[2]), view_(p.xyz[3])}, tint(p.site, n));
   }
+}
+
+// The rectangle of the parameters: what is no border of the face in it is a seam or a pole.
+void DiagramPicture::append_plane_frame() {
+  const UvBox& b = raster_.box;
+  text_ += "<path class=\"f\" d=\"";
+  append_point('M', on_plane({b.u.lo, b.v.lo}));
+  append_point('L', on_plane({b.u.hi, b.v.lo}));
+  append_point('L', on_plane({b.u.hi, b.v.hi}));
+  append_point('L', on_plane({b.u.lo, b.v.hi}));
+  text_ += "Z\"/>\n";
 }
 
 // One polygon a run of patches of the same cell in a row.

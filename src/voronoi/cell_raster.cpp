@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geodesic/connect.h"
 #include "voronoi/face_border.h"
 
 namespace geovor {
@@ -39,7 +40,7 @@ class RowScan {
     const auto next = std::find_if(list.begin(), list.end(), [u](const RowCrossing& c) { return c.u > u; });
     if (next != list.end()) return next->before;
     if (!list.empty()) return list.back().after;
-    return beside_nearest_edge({u, v(row + 0.5)});
+    return nearest_site({u, v(row + 0.5)});
   }
 
  private:
@@ -58,20 +59,18 @@ class RowScan {
     }
   }
 
-  // A row that meets no edge lies in one cell: that on its side of the nearest edge.
-  int beside_nearest_edge(Uv p) const {
+  // A row that meets no edge lies in one cell: that of the nearest site. A site farther off in space than the best way
+  // found so far can't be it.
+  int nearest_site(Uv p) const {
     const Xyz x = domain_.surface().position(p);
     double least = std::numeric_limits<double>::infinity();
-    int owner = diagram_.sites.empty() ? -1 : 0;
-    for (const DiagramEdge& e : diagram_.edges) {
-      for (size_t i = 0; i + 1 < e.points.size(); ++i) {
-        const double off = (0.5 * (e.points[i].xyz + e.points[i + 1].xyz) - x).norm();
-        if (!(off < least)) continue;
-        least = off;
-        owner = cross(e.points[i + 1].uv - e.points[i].uv, p - e.points[i].uv) > 0.0 ? e.left : e.right;
-      }
+    int nearest = diagram_.sites.empty() ? -1 : 0;
+    for (int i = 0; i < static_cast<int>(diagram_.sites.size()); ++i) {
+      if ((diagram_.sites[i].xyz - x).norm() >= least) continue;
+      const Connection c = connect(domain_.surface(), diagram_.sites[i].uv, p);
+      if (c.status == ConnectStatus::Converged && c.length < least) least = c.length, nearest = i;
     }
-    return owner;
+    return nearest;
   }
 
   const FaceDomain& domain_;
