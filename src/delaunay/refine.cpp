@@ -11,9 +11,9 @@ namespace {
 
 // A triangle is too large if its circumradius exceeds this share of the size wanted: with it, and after the
 // smoothing, the median edge has the size wanted (an equilateral triangle has 0.577).
-constexpr double kLargestRadius = 0.72;
+constexpr double kLargestRadius = 0.79;
 // Two vertices are too close below this share of the size wanted.
-constexpr double kClosest = 0.62;
+constexpr double kClosest = 0.74;
 constexpr int kRounds = 3;
 constexpr int kSmoothings = 4;
 // A vertex that would move by less than this share of the size stays: the rest is left to the next round.
