@@ -46,7 +46,7 @@ class DiagramPicture {
 
   std::string svg() {
     append_head();
-    text_ += "<g shape-rendering=\"crispEdges\" stroke=\"none\">\n";  // no hairlines between patches
+    text_ += "<g shape-rendering=\"crispEdges\">\n";  // with the strokes: no hairlines between patches
     append_space_patches();
     append_plane_patches();
     text_ += "</g>\n";
@@ -141,7 +141,7 @@ std::string DiagramPicture::tint(int site, const Xyz& normal) const {
 void DiagramPicture::append_polygon(const std::array<PagePoint, 4>& corners, const std::string& fill) {
   text_ += "<path d=\"";
   for (int k = 0; k < 4; ++k) append_point(k == 0 ? 'M' : 'L', corners[k]);
-  text_ += "Z\" fill=\"" + fill + "\"/>\n";
+  text_ += "Z\" fill=\"" + fill + "\" stroke=\"" + fill + "\"/>\n";
 }
 
 void DiagramPicture::append_space_patches() {

@@ -87,6 +87,7 @@ class DiagramBuilder {
   void trace_open_spokes();
   void trace_spoke(SpokeRef start, bool on_border);
   std::vector<SiteRay> generators_at(const BisectorPoint& m) const;
+  bool crossed(int a, int b, Uv from, Uv to) const;
   bool covered(const SiteRay& a, const SiteRay& b) const;
   std::optional<SpokeRef> arrive(const Chain& chain);
   void add_edge(const std::vector<BisectorPoint>& points, SpokeRef start, SpokeRef end);
@@ -116,7 +117,7 @@ void DiagramBuilder::scan_border() {
 
 void DiagramBuilder::scan_cycle(int cycle) {
   const UvPath path = [this, cycle](double k) { return border_.uv({cycle, k}); };
-  const auto label = [&](double k) { return LabelledPlace{k, labels_.around(path(k))}; };
+  const auto label = [&](double k) { return LabelledPlace{k, labels_.around(path(k), true)}; };
   const double end = border_.segment_count(cycle);
   const double longest = kBorderStep * spacing_;
   LabelledPlace last = label(0.0);
@@ -141,7 +142,7 @@ void DiagramBuilder::scan_border_step(int cycle, const UvPath& path, const Label
                                       int depth) {
   if (depth < kDeepestSplit && may_be_hidden(from, to)) {
     const double k = 0.5 * (from.at + to.at);
-    const LabelledPlace middle{k, labels_.around(path(k))};
+    const LabelledPlace middle{k, labels_.around(path(k), true)};
     scan_border_step(cycle, path, from, middle, depth + 1);
     scan_border_step(cycle, path, middle, to, depth + 1);
     return;
@@ -162,6 +163,7 @@ void DiagramBuilder::scan_lattice() {
       const SiteRay &a = labels_.at(node).front(), &b = labels_.at(z.node).front();
       if (same_label(a, b, (b.x - a.x).norm())) continue;
       const Uv from = lattice_.uv(node), to = z.uv;
+      if (crossed(a.site, b.site, from, to)) continue;
       const UvPath path = [from, to](double k) { return lerp(from, to, k); };
       for (const auto& change : label_changes(labels_, path, {0.0, labels_.at(node)}, {1.0, labels_.at(z.node)})) {
         trace_seed(change);
@@ -195,6 +197,22 @@ void DiagramBuilder::scan_around_sites() {
       }
     }
   }
+}
+
+// Whether an edge between the two cells, found before, crosses the straight way: then the labels at its ends are
+// explained.
+bool DiagramBuilder::crossed(int a, int b, Uv from, Uv to) const {
+  const UvVec way = to - from;
+  for (const DiagramEdge& e : diagram_.edges) {
+    const bool same = (e.left == a && e.right == b) || (e.left == b && e.right == a);
+    for (size_t i = 0; same && i + 1 < e.points.size(); ++i) {
+      const UvVec p = nearest_copy(domain_.surface(), from, e.points[i].uv);
+      const UvVec q = p + nearest_copy(domain_.surface(), e.points[i].uv, e.points[i + 1].uv);
+      const bool beside = (cross(way, p) > 0.0) != (cross(way, q) > 0.0);
+      if (beside && (cross(q - p, -p) > 0.0) != (cross(q - p, way - p) > 0.0)) return true;
+    }
+  }
+  return false;
 }
 
 bool DiagramBuilder::covered(const SiteRay& a, const SiteRay& b) const {

@@ -202,13 +202,13 @@ std::vector<Uv> FaceBorder::stretch(BorderPlace from, BorderPlace to) const {
   const int n = segment_count(from.cycle);
   std::vector<Uv> line = {uv(from)};
   const double end = to.parameter > from.parameter ? to.parameter : to.parameter + n;
-  for (double k = std::floor(from.parameter) + 1.0; k < end; k += 1.0) {
+  for (double k = std::floor(from.parameter) + 1.0; k <= end; k += 1.0) {
     const Segment& before = cycles_[from.cycle][(static_cast<int>(k) - 1) % n];
     const Segment& after = cycles_[from.cycle][static_cast<int>(k) % n];
     if (!(line.back() == before.b)) line.push_back(before.b);
-    if (!(after.a == before.b)) line.push_back(after.a);  // the other side of a seam
+    if (k < end && !(after.a == before.b)) line.push_back(after.a);  // the other side of a seam
   }
-  line.push_back(uv(to));
+  if (end > std::floor(end)) line.push_back(uv(to));
   return line;
 }
 

@@ -16,6 +16,9 @@ constexpr double kKeep = 3.0;
 // same site that matters comes from another side.
 constexpr double kSameGuess = 0.25;
 
+// Two arrivals of one geodesic, as a part of the reach: they agree to kRoughly of their length.
+constexpr double kSameArrival = 1e-3;
+
 bool near_guess(const SiteRay& ray, int site, const Polar& guess, double reach) {
   if (ray.site != site) return false;
   return std::abs(ray.polar.s - guess.s) + std::abs(ray.y * wrap_angle(ray.polar.t - guess.t)) < kSameGuess * reach;
@@ -40,7 +43,7 @@ class Front {
       : lattice_(lattice), rays_(rays), lists_(lists), known_(lattice.count()) {}
 
   void start(int site) {
-    for (int node : lattice_.corners(rays_.site(site))) push(node, rays_.to(site, lattice_.uv(node)));
+    for (int node : lattice_.corners(rays_.site(site))) push(node, rays_.roughly_to(site, lattice_.uv(node)));
   }
 
   void run() {
@@ -66,9 +69,10 @@ class Front {
   bool take(const Arrival& a) {
     if (!(a.length <= limit(a.node))) return false;
     auto& list = lists_[a.node];
-    for (const SiteRay& ray : list) {
-      if (same_generator(ray, a.ray)) return false;
-    }
+    const auto same = [&](const SiteRay& ray) {
+      return near_guess(ray, a.ray.site, a.ray.polar, kSameArrival * lattice_.reach(a.node));
+    };
+    if (std::any_of(list.begin(), list.end(), same)) return false;
     list.push_back(a.ray);
     return true;
   }
@@ -82,7 +86,7 @@ class Front {
     for (const auto& z : lattice_.neighbours(a.node)) {
       const Polar guess = carry(a.ray, lattice_.xyz(z.node));
       if (!(guess.s > 0.0) || guess.s > limit(z.node) + lattice_.reach(z.node)) continue;
-      if (!known(z.node, a.ray.site, guess)) push(z.node, rays_.to(a.ray.site, z.uv, guess));
+      if (!known(z.node, a.ray.site, guess)) push(z.node, rays_.roughly_to(a.ray.site, z.uv, guess));
     }
   }
 
@@ -108,7 +112,7 @@ CandidateLabels::CandidateLabels(const FaceLattice& lattice, const SiteRays& ray
   for (auto& list : lists_) sort_by_length(list);
 }
 
-std::vector<SiteRay> CandidateLabels::around(Uv m) const {
+std::vector<SiteRay> CandidateLabels::around(Uv m, bool roughly) const {
   const Xyz x = rays_.surface().position(m);
   std::vector<SiteRay> found;
   for (int corner : lattice_.corners(m)) {
@@ -118,7 +122,7 @@ std::vector<SiteRay> CandidateLabels::around(Uv m) const {
         return near_guess(ray, candidate.site, guess, lattice_.reach(corner));
       };
       if (std::any_of(found.begin(), found.end(), near)) continue;
-      const auto ray = rays_.to(candidate.site, m, guess);
+      const auto ray = roughly ? rays_.roughly_to(candidate.site, m, guess) : rays_.to(candidate.site, m, guess);
       if (!ray) continue;
       const auto same = [&](const SiteRay& other) { return same_generator(*ray, other); };
       if (std::none_of(found.begin(), found.end(), same)) found.push_back(*ray);

@@ -16,11 +16,12 @@ class CandidateLabels {
  public:
   CandidateLabels(const FaceLattice& lattice, const SiteRays& rays);
 
-  /// By length; the first is the nearest site. Empty only where no geodesic could be computed.
+  /// By length, to kRoughly; the first is the nearest site. Empty only where no geodesic could be computed.
   const std::vector<SiteRay>& at(int node) const { return lists_[node]; }
 
-  /// The geodesics of all candidates of the cell around m to m itself, by length; lists of one geodesic only once.
-  std::vector<SiteRay> around(Uv m) const;
+  /// The geodesics of all candidates of the cell around m to m itself, by length; each geodesic once. `roughly`: to
+  /// kRoughly of their length.
+  std::vector<SiteRay> around(Uv m, bool roughly = false) const;
 
   const FaceLattice& lattice() const { return lattice_; }
   const SiteRays& rays() const { return rays_; }

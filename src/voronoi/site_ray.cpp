@@ -29,12 +29,6 @@ bool usable(const SiteRay& ray) {
 // Shots at one target; a guess from a neighbour needs two or three.
 constexpr int kMostShots = 12;
 
-// Integrator tolerance of the first shot, whose miss is that of the guess anyway.
-constexpr double kCoarseShot = 1e-7;
-
-// A miss that a step of second order makes good to rounding, as a part of the length (and of y).
-constexpr double kLastMiss = 1e-5;
-
 // The longest step of the aim: radians, and a part of the length.
 constexpr double kMostTurn = 0.5;
 constexpr double kMostStretch = 0.5;
@@ -71,8 +65,21 @@ std::optional<SiteRay> SiteRays::at(int site, Polar polar) const {
   return ray;
 }
 
+/// How the shots of one search are fired.
+struct SiteRays::Accuracy {
+  double first, others;  ///< tolerances of the integrator; the miss of the first shot is that of the guess anyway
+  double last_miss;      ///< as a part of the length (and of y): what one more step makes good
+  bool one_shot;         ///< the first shot may be the last
+};
+
+namespace {
+// The step that makes the last miss e good leaves e^3.
+constexpr SiteRays::Accuracy kFull = {1e-7, 1e-12, 1e-5, false};
+constexpr SiteRays::Accuracy kRough = {0.1 * kRoughly, 0.1 * kRoughly, 1e-3, true};
+}  // namespace
+
 std::optional<SiteRay> SiteRays::to(int site, Uv m, std::optional<Polar> guess) const {
-  if (guess && !has_closed_form(surface_)) return shoot_near(site, m, *guess);
+  if (guess && !has_closed_form(surface_)) return shoot_near(site, m, *guess, kFull);
   const Connection c = connect(surface_, sites_[site], m, guess);
   if (c.status != ConnectStatus::Converged || !(c.length > 0.0)) return std::nullopt;
   SiteRay ray{site, {c.length, c.angle}, m, {}, {}, {}, c.y};
@@ -81,16 +88,21 @@ std::optional<SiteRay> SiteRays::to(int site, Uv m, std::optional<Polar> guess) 
   return ray;
 }
 
-// Only the geodesic next to the guess is of use here, where connect() would go on to look for any other. A coarse shot
-// first, then full ones; the last miss, of size e, is made good by the step that it asks for, which leaves e^3.
-std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim) const {
+// Only the geodesic next to the guess is of use here, where connect() would go on to look for any other. Shots
+// until the miss is so small that one more step makes it good.
+std::optional<SiteRay> SiteRays::roughly_to(int site, Uv m, std::optional<Polar> guess) const {
+  if (guess && !has_closed_form(surface_)) return shoot_near(site, m, *guess, kRough);
+  return to(site, m, guess);
+}
+
+std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, const Accuracy& accuracy) const {
   const Xyz target = surface_.position(m);
   const FirstForm at_site = first_form(surface_.jet(sites_[site]));
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostShots && aim.s > 0.0; ++i) {
     TraceOptions options;
     options.stop_at_domain = false;
-    if (i == 0) options.tolerance = kCoarseShot;
+    options.tolerance = i == 0 ? accuracy.first : accuracy.others;
     const TraceResult shot = trace_geodesic(surface_, sites_[site], direction_at_angle(at_site, aim.t), aim.s, options);
     if (shot.status != TraceStatus::Converged) return std::nullopt;
     SiteRay ray{site, aim, shot.end.p, {}, {}, {}, shot.end.y};
@@ -98,7 +110,9 @@ std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim) const {
     const double miss = (target - ray.x).norm();
     if (!usable(ray) || !(miss < last)) return std::nullopt;
     const Polar step = second_order_step(ray, shot.end.dy, target);
-    if (i > 0 && miss <= kLastMiss * std::min(aim.s, std::abs(ray.y))) return moved(ray, step, shot.end.dy, m, target);
+    if ((i > 0 || accuracy.one_shot) && miss <= accuracy.last_miss * std::min(aim.s, std::abs(ray.y))) {
+      return moved(ray, step, shot.end.dy, m, target);
+    }
     const double k = std::min({1.0, kMostTurn / std::abs(step.t), kMostStretch * aim.s / std::abs(step.s)});
     aim = {aim.s + k * step.s, aim.t + k * step.t};
     if (i > 0) last = miss;

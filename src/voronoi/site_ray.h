@@ -24,6 +24,8 @@ struct SiteRay {
 /// Makes rays of a set of sites on a surface. Both outlive it.
 class SiteRays {
  public:
+  struct Accuracy;  ///< private to the .cpp
+
   SiteRays(const Surface& surface, const std::vector<Uv>& sites) : surface_(surface), sites_(sites) {}
 
   /// The ray with these polar coordinates: O_site(s,t). Nothing where the geodesic can't be traced, or at a conjugate
@@ -34,16 +36,21 @@ class SiteRays {
   /// iteration does not settle.
   std::optional<SiteRay> to(int site, Uv m, std::optional<Polar> guess = std::nullopt) const;
 
+  /// The same to kRoughly of the length, at a third of the cost: for labels, whose values are guesses and bounds.
+  std::optional<SiteRay> roughly_to(int site, Uv m, std::optional<Polar> guess = std::nullopt) const;
+
   const Surface& surface() const { return surface_; }
   Uv site(int i) const { return sites_[i]; }
   int count() const { return static_cast<int>(sites_.size()); }
 
  private:
-  std::optional<SiteRay> shoot_near(int site, Uv m, Polar aim) const;
+  std::optional<SiteRay> shoot_near(int site, Uv m, Polar aim, const Accuracy& accuracy) const;
 
   const Surface& surface_;
   const std::vector<Uv>& sites_;
 };
+
+inline constexpr double kRoughly = 1e-7;
 
 /// The polar coordinates, to first order, of the point `m` of space near ray.x.
 Polar carry(const SiteRay& ray, const Xyz& m);
