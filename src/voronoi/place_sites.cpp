@@ -54,14 +54,14 @@ class FarthestPoints {
     const int site = static_cast<int>(sites_.size());
     sites_.push_back(lattice_.uv(node));
     distance_[node] = 0.0;
-    for (const auto& z : lattice_.neighbours(node)) offer(z.node, rays_.to(site, z.uv));
+    for (const auto& z : lattice_.neighbours(node)) offer(z.node, rays_.roughly_to(site, z.uv));
     while (!queue_.empty()) {
       const Arrival a = queue_.top();
       queue_.pop();
       if (a.ray.polar.s > distance_[a.node]) continue;
       for (const auto& z : lattice_.neighbours(a.node)) {
         const Polar guess = carry(a.ray, lattice_.xyz(z.node));
-        if (guess.s > 0.0 && guess.s < distance_[z.node] * (1.0 - kTie)) offer(z.node, rays_.to(site, z.uv, guess));
+        if (guess.s > 0.0 && guess.s < distance_[z.node] * (1.0 - kTie)) offer(z.node, rays_.roughly_to(site, z.uv, guess));
       }
     }
   }

@@ -9,6 +9,13 @@ namespace {
 // See kSameGuess in labels.cpp.
 constexpr double kSameGuess = 0.25;
 
+// Two rays to one point are the same if they agree to this part of the reach; the rougher ones do to kRoughly of their
+// length.
+constexpr double kSameRay = 1e-3;
+
+// A gap, as a part of the radius, far above the error of a rough ray.
+constexpr double kClearlyFarther = 1e-4;
+
 // Chords are shorter than the way along the edge; their difference is far below this part.
 constexpr double kChordSlack = 1.02;
 
@@ -35,12 +42,12 @@ RivalWatch::Rival RivalWatch::measure(const SiteRay& ray, const BisectorPoint& m
 
 // Whether a candidate at a corner is a geodesic that is watched already, told from polar coordinates carried to the
 // last accepted point; a doubt costs one more connection.
-bool RivalWatch::known(const SiteRay& candidate, double reach) const {
+bool RivalWatch::known(const SiteRay& candidate, double slack) const {
   const Polar here = carry(candidate, last_.position());
   const auto same = [&](const SiteRay& ray) {
     if (ray.site != candidate.site) return false;
     const Polar there = carry(ray, last_.position());
-    return std::abs(here.s - there.s) + std::abs(ray.y * wrap_angle(here.t - there.t)) < kSameGuess * reach;
+    return std::abs(here.s - there.s) + std::abs(ray.y * wrap_angle(here.t - there.t)) < slack;
   };
   return same(last_.left) || same(last_.right) ||
          std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) { return same(r.ray); });
@@ -53,13 +60,20 @@ void RivalWatch::enlist(const BisectorPoint& m) {
     if (std::find(corners_seen_.begin(), corners_seen_.end(), corner) != corners_seen_.end()) continue;
     corners_seen_.push_back(corner);
     for (const SiteRay& candidate : labels_.at(corner)) {
-      if (known(candidate, labels_.lattice().reach(corner))) continue;
-      const auto ray = labels_.rays().to(candidate.site, last_.left.uv, carry(candidate, last_.position()));
-      if (!ray || same_generator(*ray, last_.left) || same_generator(*ray, last_.right)) continue;
-      const auto same = [&](const Rival& r) { return same_generator(r.ray, *ray); };
-      if (std::none_of(rivals_.begin(), rivals_.end(), same)) rivals_.push_back(measure(*ray, last_, travelled_));
+      if (known(candidate, kSameGuess * labels_.lattice().reach(corner))) continue;
+      const auto ray = ray_to(candidate.site, last_, carry(candidate, last_.position()));
+      if (ray && !known(*ray, kSameRay * labels_.lattice().reach(corner))) {
+        rivals_.push_back(measure(*ray, last_, travelled_));
+      }
     }
   }
+}
+
+// The gap of a rival that is clearly farther off needs no more digits than a guess has.
+std::optional<SiteRay> RivalWatch::ray_to(int site, const BisectorPoint& m, const Polar& guess) const {
+  const auto ray = labels_.rays().roughly_to(site, m.left.uv, guess);
+  if (!ray || ray->polar.s - m.radius() > kClearlyFarther * m.radius()) return ray;
+  return labels_.rays().to(site, m.left.uv, ray->polar);
 }
 
 RivalVerdict RivalWatch::look(const BisectorPoint& next) {
@@ -72,7 +86,7 @@ RivalVerdict RivalWatch::look(const BisectorPoint& next) {
   for (Rival& rival : looked_at_) {
     const double way = now - rival.at;
     if (rival.gap > 2.0 * kChordSlack * way) continue;
-    const auto ray = labels_.rays().to(rival.ray.site, next.left.uv, carry(rival.ray, next.position()));
+    const auto ray = ray_to(rival.ray.site, next, carry(rival.ray, next.position()));
     if (!ray || same_generator(*ray, next.left) || same_generator(*ray, next.right)) continue;
     const Rival before = rival;
     rival = measure(*ray, next, now);

@@ -37,7 +37,8 @@ class RivalWatch {
     double at;  ///< way travelled when it was looked at
   };
   void enlist(const BisectorPoint& m);
-  bool known(const SiteRay& candidate, double reach) const;
+  bool known(const SiteRay& candidate, double slack) const;
+  std::optional<SiteRay> ray_to(int site, const BisectorPoint& m, const Polar& guess) const;
   Rival measure(const SiteRay& ray, const BisectorPoint& m, double at) const;
 
   const CandidateLabels& labels_;
