@@ -39,6 +39,22 @@ double curve_curvature(const CurveJet<3>& j) {
   return std::isfinite(k) ? k : 0.0;
 }
 
+// Below this relative growth of h over a piece its series is exact to rounding.
+constexpr double kEven = 1e-8;
+
+// The integral of ds / h over a piece of length s on which h runs linearly from h0 to h1: where the gradation rules it
+// does.
+double segments_between(double s, double h0, double h1) {
+  const double growth = (h1 - h0) / h0;
+  return s / h0 * (std::abs(growth) > kEven ? std::log1p(growth) / growth : 1.0 - growth / 2);
+}
+
+// The inverse: the share of the piece over which that integral is `count`.
+double share_of_segments(double count, double s, double h0, double h1) {
+  const double growth = (h1 - h0) / h0, x = count * h0 / s;
+  return std::clamp(std::abs(growth) > kEven ? std::expm1(x * growth) / growth : x, 0.0, 1.0);
+}
+
 class Sampler {
  public:
   Sampler(const CadModel& model, const SizeRule& rule, const std::vector<double>& finer)
@@ -192,7 +208,7 @@ void Sampler::place(int edge) {
   const Stations& st = stations_[edge];
   std::vector<double> work(st.t.size(), 0.0);  // the integral of ds / h
   for (size_t i = 1; i < st.t.size(); ++i) {
-    work[i] = work[i - 1] + (st.s[i] - st.s[i - 1]) * 0.5 * (1.0 / st.h[i - 1] + 1.0 / st.h[i]);
+    work[i] = work[i - 1] + segments_between(st.s[i] - st.s[i - 1], st.h[i - 1], st.h[i]);
   }
   const bool closed = e.first_vertex == e.last_vertex;
   const int least = std::max(closed ? 3 : 1, static_cast<int>(std::ceil(st.turn / kLargestTurn - 1e-6)));
@@ -203,7 +219,7 @@ void Sampler::place(int edge) {
   for (int k = 1; k < n; ++k) {
     const double target = work.back() * k / n;
     while (i + 1 < work.size() && work[i] < target) ++i;
-    const double part = (target - work[i - 1]) / (work[i] - work[i - 1]);
+    const double part = share_of_segments(target - work[i - 1], st.s[i] - st.s[i - 1], st.h[i - 1], st.h[i]);
     const double t = st.t[i - 1] + part * (st.t[i] - st.t[i - 1]);
     out.t.push_back(t);
     out.points.push_back(static_cast<int>(result_.points.size()));

@@ -1,0 +1,82 @@
+#include "delaunay/border.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "delaunay/meshing_faces.h"
+
+namespace geovor {
+namespace {
+
+using namespace testing;
+
+TEST(SizeRule, FollowsTheSmallestOfItsParts) {
+  SizeRule rule{2.0, 0.1};
+  rule.angle = 0.3;
+  rule.deflection = 0.01;
+  EXPECT_DOUBLE_EQ(rule.at(0.0), 2.0);
+  EXPECT_DOUBLE_EQ(rule.at(1.0), 0.2);     // sqrt(4 * 0.01 / 1) < 0.3 / 1
+  EXPECT_DOUBLE_EQ(rule.at(2.5), 0.12);    // 0.3 / 2.5 < sqrt(0.04 / 2.5)
+  EXPECT_DOUBLE_EQ(rule.at(1000.0), 0.1);  // never below the smallest size
+}
+
+// The parallel at latitude 1 of a sphere of radius 2 is a circle of radius 2 cos 1.
+TEST(SampleBorder, DividesACircleIntoEqualArcsOfTheSize) {
+  const double radius = 2.0, r = radius * std::cos(1.0);
+  const CadModel model = one_face(std::make_shared<Sphere>(origin_frame(), radius),
+                                  {{{0, 1}, 0}, {{2 * kPi, 1}, 0}, {{2 * kPi, kPi / 2}, 1}, {{0, kPi / 2}, 1}});
+  const SizeRule rule{0.1};
+  const BorderPoints border = sample_border(model, rule, std::vector<double>(model.edges.size(), 1.0));
+  const auto& circle = border.edges[0];
+  const int n = static_cast<int>(circle.points.size()) - 1;
+  EXPECT_EQ(n, std::lround(2 * kPi * r / 0.1));
+  EXPECT_EQ(circle.points.front(), circle.points.back());
+  for (int i = 0; i < n; ++i) {
+    const double chord = (border.points[circle.points[i + 1]] - border.points[circle.points[i]]).norm();
+    EXPECT_NEAR(chord, 2 * r * std::sin(kPi / n), 1e-9);
+  }
+}
+
+TEST(SampleBorder, MeetsThePoleInOnePoint) {
+  const CadModel model = whole_sphere(1.0);
+  const BorderPoints border = sample_border(model, SizeRule{0.2}, std::vector<double>(model.edges.size(), 1.0));
+  int poles = 0;
+  for (size_t e = 0; e < model.edges.size(); ++e) {
+    if (!model.edges[e].degenerate()) continue;
+    ASSERT_EQ(border.edges[e].points.size(), 1u);
+    EXPECT_NEAR(std::abs(border.points[border.edges[e].points[0]].z()), 1.0, 1e-15);
+    ++poles;
+  }
+  EXPECT_EQ(poles, 2);
+}
+
+// Beside a short edge the points stand closer, and the steps grow no faster than the gradation allows.
+TEST(SampleBorder, GrowsAwayFromAShortEdgeAtTheGradation) {
+  const CadModel model = one_face(std::make_shared<Plane>(origin_frame()),
+                                  {{{0, 0}, 0}, {{10, 0}, 1}, {{10, 10}, 2}, {{0.05, 10}, 3}, {{0, 9.95}, 4}});
+  SizeRule rule{1.0, 0.0};
+  rule.gradation = 0.3;
+  const BorderPoints border = sample_border(model, rule, std::vector<double>(model.edges.size(), 1.0));
+  const auto& top = border.edges[2];  // from (10, 10) to the short edge
+  double last = 0.0;
+  for (size_t i = 0; i + 1 < top.points.size(); ++i) {
+    const double step = (border.points[top.points[i + 1]] - border.points[top.points[i]]).norm();
+    if (i > 0) {
+      EXPECT_LT(last, step * (1.0 + 1.2 * rule.gradation)) << i;
+    }
+    last = step;
+  }
+  EXPECT_LT(last, 0.12);
+}
+
+TEST(SampleBorder, KeepsAHoleRoundHoweverCoarseTheSize) {
+  const CadModel model = one_face(std::make_shared<Sphere>(origin_frame(), 1.0),
+                                  {{{0, 1}, 0}, {{2 * kPi, 1}, 0}, {{2 * kPi, kPi / 2}, 1}, {{0, kPi / 2}, 1}});
+  const BorderPoints border =
+      sample_border(model, SizeRule{100.0, 100.0}, std::vector<double>(model.edges.size(), 1.0));
+  EXPECT_GE(border.edges[0].points.size(), 9u);
+}
+
+}  // namespace
+}  // namespace geovor
