@@ -33,6 +33,14 @@ constexpr int kMostSteps = 200000;
 // Part of the first chord of a chain that starts on the border in which the start itself would be met.
 constexpr double kOffBorder = 1e-3;
 
+// A chain that makes this many steps, each below kCreep of the longest, gets nowhere.
+constexpr double kCreep = 1e-3;
+constexpr int kMostCreeping = 200;
+
+// A cut locus ends in a conjugate point of its site, where its two geodesics become one. With less than this between
+// their directions (radians) the rest is shorter than about its square, in radii of curvature, and hard to follow.
+constexpr double kOneGeodesic = 0.02;
+
 constexpr int kBorderIterations = 30;
 constexpr int kMostRivalsInTurn = 12;
 
@@ -66,6 +74,10 @@ bool passes(const BisectorPoint& start, const BisectorPoint& cur, const Bisector
   return same(cur.left, start.left) && same(cur.right, start.right) && start.tangent().dot(cur.tangent()) > 0.0;
 }
 
+bool near_conjugate_point(const BisectorPoint& m) {
+  return m.left.site == m.right.site && std::abs(wrap_angle(m.left.polar.t - m.right.polar.t)) < kOneGeodesic;
+}
+
 }  // namespace
 
 void sort_around(std::vector<SiteRay>& g) {
@@ -94,11 +106,14 @@ Chain ChainTracer::trace(const BisectorPoint& start, bool on_border) const {
   Walk walk(labels_, start);
   walk.starts_on_border = on_border;
   walk.step = kFirstStep * longest_step(start);
-  const double shortest = kShortestStep * longest_step(start);
-  for (int i = 0; i < kMostSteps && walk.step > shortest; ++i) {
+  const double longest = longest_step(start);
+  int creeping = 0;
+  for (int i = 0; i < kMostSteps && walk.step > kShortestStep * longest && creeping < kMostCreeping; ++i) {
+    if (near_conjugate_point(walk.current())) break;
     const Step outcome = advance(walk);
     if (outcome == Step::Ended) return walk.chain;
     if (outcome == Step::Failed) walk.step *= 0.5;
+    creeping = walk.step < kCreep * longest ? creeping + 1 : 0;
   }
   return walk.chain;
 }

@@ -61,7 +61,8 @@ class FarthestPoints {
       if (a.ray.polar.s > distance_[a.node]) continue;
       for (const auto& z : lattice_.neighbours(a.node)) {
         const Polar guess = carry(a.ray, lattice_.xyz(z.node));
-        if (guess.s > 0.0 && guess.s < distance_[z.node] * (1.0 - kTie)) offer(z.node, rays_.roughly_to(site, z.uv, guess));
+        if (guess.s > 0.0 && guess.s < distance_[z.node] * (1.0 - kTie))
+          offer(z.node, rays_.roughly_to(site, z.uv, guess));
       }
     }
   }
