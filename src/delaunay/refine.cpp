@@ -14,6 +14,8 @@ namespace {
 constexpr double kLargestRadius = 0.79;
 // Two vertices are too close below this share of the size wanted.
 constexpr double kClosest = 0.74;
+// A triangle with a circumradius above this many sizes gets a vertex somewhere, if not at its Voronoi vertex.
+constexpr double kFarTooLarge = 1.2;
 constexpr int kRounds = 3;
 constexpr int kSmoothings = 4;
 // A vertex that would move by less than this share of the size stays: the rest is left to the next round.
@@ -66,16 +68,32 @@ bool crowds_border(const SurfaceTriangulation& m, const Xyz& x, int t) {
   return false;
 }
 
+bool insert_near(SurfaceTriangulation& mesh, const Xyz& point, int t) {
+  const int below = point.allFinite() ? mesh.locate(point, t) : HalfEdges::kNone;
+  if (below == HalfEdges::kNone) return false;
+  const auto vertex = mesh.drop(point, below);
+  return vertex && !crowds_border(mesh, vertex->x, below) && mesh.insert(*vertex, below);
+}
+
+// The Voronoi vertex; where a border stands before it and the triangle is far too large, its middle.
+bool insert_into(SurfaceTriangulation& mesh, int t) {
+  if (insert_near(mesh, mesh.circumcentre(t), t)) return true;
+  if (mesh.circumradius(t) < kFarTooLarge * wanted(mesh, t)) return false;
+  const auto [a, b, c] = mesh.topology().corners(t);
+  const Xyz middle = (mesh.vertex(a).x + mesh.vertex(b).x + mesh.vertex(c).x) / 3.0;
+  for (int v : {a, b, c}) {
+    if ((mesh.vertex(v).x - middle).norm() < kClosest * mesh.vertex(v).h) return false;
+  }
+  return insert_near(mesh, middle, t);
+}
+
 int insert_voronoi_vertices(SurfaceTriangulation& mesh, int& too_large) {
   Worklist work(mesh);
   for (int t = 0; t < mesh.topology().triangle_count(); ++t) work.consider(t);
   int inserted = 0;
   too_large = 0;
   for (int t = work.next(); t != HalfEdges::kNone; t = work.next()) {
-    const Xyz centre = mesh.circumcentre(t);
-    const int below = centre.allFinite() ? mesh.locate(centre, t) : HalfEdges::kNone;
-    const auto vertex = below == HalfEdges::kNone ? std::nullopt : mesh.drop(centre, below);
-    if (!vertex || crowds_border(mesh, vertex->x, below) || !mesh.insert(*vertex, below)) {
+    if (!insert_into(mesh, t)) {
       ++too_large;
       continue;
     }

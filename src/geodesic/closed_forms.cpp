@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geodesic/cone_development.h"
 #include "surface/elementary_surfaces.h"
 #include "surface/forms.h"
 
@@ -14,6 +15,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 const Sphere* as_sphere(const Surface& surface) { return dynamic_cast<const Sphere*>(&surface); }
+
+const Cone* as_cone(const Surface& surface) { return dynamic_cast<const Cone*>(&surface); }
 
 // Plane and cylinder: E, F and G are constants.
 bool is_flat(const Surface& surface) {
@@ -114,10 +117,13 @@ UvVec nearest_winding(const Surface& surface, UvVec way, double to_u) {
 
 }  // namespace
 
-bool has_closed_form(const Surface& surface) { return is_flat(surface) || as_sphere(surface) != nullptr; }
+bool has_closed_form(const Surface& surface) {
+  return is_flat(surface) || as_sphere(surface) != nullptr || as_cone(surface) != nullptr;
+}
 
 std::optional<TraceResult> trace_closed_form(const Surface& surface, Uv start, UvVec direction, double length) {
   if (const Sphere* sphere = as_sphere(surface)) return trace_sphere(*sphere, start, direction, length);
+  if (const Cone* cone = as_cone(surface)) return trace_cone(*cone, start, direction, length);
   if (is_flat(surface)) return trace_flat(surface, start, direction, length);
   return std::nullopt;
 }
@@ -131,6 +137,12 @@ std::optional<Connection> connect_closed_form(const Surface& surface, Uv from, U
       return turn(a.length, a.angle, guess->s, guess->t) < turn(b.length, b.angle, guess->s, guess->t);
     });
   }
+  if (const Cone* cone = as_cone(surface)) {
+    const UvVec towards = guess ? direction_at_angle(first_form(cone->jet(from)), guess->t) : UvVec{};
+    const double u = guess && is_finite(towards) ? trace_cone(*cone, from, towards, guess->s).end.p.u : from.u;
+    const auto all = connect_cone(*cone, from, to, u);
+    return all.empty() ? Connection{} : all.front();
+  }
   if (!is_flat(surface)) return std::nullopt;
   const FirstForm metric = first_form(surface.jet(from));
   const double guessed_u = guess ? guess->s * direction_at_angle(metric, guess->t).u : 0.0;
@@ -139,6 +151,7 @@ std::optional<Connection> connect_closed_form(const Surface& surface, Uv from, U
 
 std::optional<std::vector<Connection>> connections_closed_form(const Surface& surface, Uv from, Uv to) {
   if (const Sphere* sphere = as_sphere(surface)) return connect_sphere(*sphere, from, to, 0.0);
+  if (const Cone* cone = as_cone(surface)) return connect_cone(*cone, from, to, from.u);
   if (!is_flat(surface)) return std::nullopt;
   const FirstForm metric = first_form(surface.jet(from));
   const UvVec way = nearest_winding(surface, to - from, 0.0);

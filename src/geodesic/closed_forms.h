@@ -1,5 +1,5 @@
-// Geodesics in closed form: straight lines where the metric is constant (plane, cylinder), great circles on the sphere,
-// whose poles are points like any other.
+// Geodesics in closed form: straight lines where the metric is constant (plane, cylinder) and on the cone's
+// development, great circles on the sphere. A cone's tip and a sphere's poles are points like any other.
 #pragma once
 
 #include <optional>

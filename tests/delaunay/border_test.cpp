@@ -16,8 +16,9 @@ TEST(SizeRule, FollowsTheSmallestOfItsParts) {
   rule.angle = 0.3;
   rule.deflection = 0.01;
   EXPECT_DOUBLE_EQ(rule.at(0.0), 2.0);
-  EXPECT_DOUBLE_EQ(rule.at(1.0), 0.2);     // sqrt(4 * 0.01 / 1) < 0.3 / 1
-  EXPECT_DOUBLE_EQ(rule.at(2.5), 0.12);    // 0.3 / 2.5 < sqrt(0.04 / 2.5)
+  EXPECT_DOUBLE_EQ(rule.at(0.75), 0.2);  // sqrt(3 * 0.01 / 0.75) < 0.3 / 0.75
+  rule.angle = 0.12;
+  EXPECT_DOUBLE_EQ(rule.at(1.0), 0.12);    // 0.12 / 1 < sqrt(3 * 0.01 / 1)
   EXPECT_DOUBLE_EQ(rule.at(1000.0), 0.1);  // never below the smallest size
 }
 
