@@ -81,7 +81,7 @@ std::vector<std::string> check_face(const TopoDS_Face& face) {
     add(analyzer.Result(face)->Status(), problems);
     for (const TopAbs_ShapeEnum kind : {TopAbs_WIRE, TopAbs_EDGE, TopAbs_VERTEX}) {
       for (const TopoDS_Shape& part : parts_of(face, kind)) {
-        const Handle(BRepCheck_Result) result = analyzer.Result(part);
+        const Handle(BRepCheck_Result)& result = analyzer.Result(part);
         if (result.IsNull()) continue;
         add(result->Status(), problems);
         for (result->InitContextIterator(); result->MoreShapeInContext(); result->NextShapeInContext()) {

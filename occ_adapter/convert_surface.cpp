@@ -86,7 +86,7 @@ SurfacePtr convert_swept(const Geom_SweptSurface& surface) {
 SurfacePtr convert_surface(const Handle(Geom_Surface) & any) {
   const Handle(Geom_Surface) surface = unwrapped(any);
   if (const auto* elementary = dynamic_cast<const Geom_ElementarySurface*>(surface.get())) {
-    if (const SurfacePtr made = convert_elementary(*elementary)) return made;
+    if (SurfacePtr made = convert_elementary(*elementary)) return made;
   }
   if (const auto* spline = dynamic_cast<const Geom_BSplineSurface*>(surface.get())) return convert_bspline(*spline);
   if (surface->IsKind(STANDARD_TYPE(Geom_BezierSurface))) {
