@@ -10,6 +10,9 @@
 namespace geovor {
 namespace {
 
+// An inner edge this many times longer than the size wanted at its triangle's corners is told.
+constexpr double kTooLong = 2.5;
+
 void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
   const HalfEdges& topo = mesh.topology();
   for (int t = 0; t < topo.triangle_count(); ++t) {
@@ -20,8 +23,13 @@ void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
     for (const Xyz& x : {Xyz((p + q + r) / 3.0), Xyz((p + q) / 2.0), Xyz((q + r) / 2.0), Xyz((r + p) / 2.0)}) {
       if (const auto f = mesh.foot(x, t)) out.largest_distance = std::max(out.largest_distance, (f->x - x).norm());
     }
-    const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
-    if (longest > 2.0 * std::max({mesh.vertex(a).h, mesh.vertex(b).h, mesh.vertex(c).h})) ++out.too_large;
+    const double wanted = std::max({mesh.vertex(a).h, mesh.vertex(b).h, mesh.vertex(c).h});
+    double longest = 0.0;
+    for (int e = 3 * t; e < 3 * t + 3; ++e) {
+      if (!topo.fixed(e))
+        longest = std::max(longest, (mesh.vertex(topo.origin(e)).x - mesh.vertex(topo.target(e)).x).norm());
+    }
+    if (longest > kTooLong * wanted) ++out.too_large;
   }
 }
 

@@ -18,7 +18,7 @@ struct FaceMesh {
   /// Corners, counter-clockwise about Su x Sv: i >= 0 is border point i, i < 0 is inner[-1 - i].
   std::vector<std::array<int, 3>> triangles;
   int inverted = 0;               ///< triangles whose normal points against the surface's below their centroid
-  int too_large = 0;              ///< triangles with an edge longer than twice the size wanted
+  int too_large = 0;              ///< triangles with an inner edge longer than 2.5 times the size wanted
   double largest_distance = 0.0;  ///< from the middles of triangles and edges to the surface
   int estimated_lengths = 0;      ///< geodesic lengths that had to be estimated
 };

@@ -152,9 +152,37 @@ void smooth(SurfaceTriangulation& mesh) {
     if ((target - mesh.vertex(v).x).norm() < kSmallMove * mesh.vertex(v).h) continue;
     const int below = mesh.locate(target, topo.outgoing(v) / 3);
     if (below == HalfEdges::kNone) continue;
-    if (const auto to = mesh.drop(target, below)) mesh.move(v, *to);
+    auto to = mesh.drop(target, below);
+    if (!to) continue;
+    to->h = mesh.vertex(v).h;  // graded; the rule's own size at the new place may be a spike of the curvature
+    mesh.move(v, *to);
   }
   mesh.flip_all();
+}
+
+// h(x) <= h(y) + gradation * |x - y| along the edges, from the smallest sizes outwards (Dijkstra's algorithm). Border
+// points keep their sizes: they stand where they stand.
+void grade(SurfaceTriangulation& mesh) {
+  using Node = std::pair<double, int>;
+  std::priority_queue<Node, std::vector<Node>, std::greater<>> queue;
+  const HalfEdges& topo = mesh.topology();
+  for (int v = 0; v < topo.vertex_count(); ++v) {
+    if (topo.outgoing(v) != HalfEdges::kNone) queue.push({mesh.vertex(v).h, v});
+  }
+  while (!queue.empty()) {
+    const auto [h, v] = queue.top();
+    queue.pop();
+    if (h > mesh.vertex(v).h) continue;
+    for (int e : topo.star(v)) {
+      for (int w : {topo.target(e), topo.apex(e)}) {
+        const double bound = h + mesh.rule().gradation * (mesh.vertex(w).x - mesh.vertex(v).x).norm();
+        if (mesh.vertex(w).border < 0 && bound < mesh.vertex(w).h) {
+          mesh.set_size(w, bound);
+          queue.push({bound, w});
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -165,6 +193,7 @@ RefineResult refine(SurfaceTriangulation& mesh) {
   mesh.flip_all();
   for (int round = 0; round < kRounds; ++round) {
     mesh.decide_by_geodesics(round + 1 == kRounds);
+    grade(mesh);
     int removed = 0;
     do {
       removed = thin_out(mesh);

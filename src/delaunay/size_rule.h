@@ -19,8 +19,8 @@ struct SizeRule {
   /// `curvature`: the largest |normal curvature|, 1/length.
   double at(double curvature) const {
     if (!(curvature > 0.0)) return size;
-    // A triangle may have the circumradius 0.8 h; over a circle of curvature k its middle lies k (0.8 h)^2 / 2 below the arc,
-    // a little less than k h^2 / 3.
+    // A triangle may have the circumradius 0.8 h; over a circle of curvature k its middle lies k (0.8 h)^2 / 2 below
+    // the arc, a little less than k h^2 / 3.
     const double h = std::min({size, angle / curvature, std::sqrt(3.0 * deflection / curvature)});
     return std::max(h, std::min(min_size, size));
   }

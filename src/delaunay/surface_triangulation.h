@@ -63,6 +63,7 @@ class SurfaceTriangulation {
   bool insert(const MeshVertex& vertex, int t);
   /// Removes the origin of e by moving it into its target, likewise.
   bool collapse(int e);
+  void set_size(int v, double h) { vertices_[v].h = h; }
   /// Moves an inner vertex, likewise; does not flip.
   bool move(int v, const MeshVertex& to);
 
