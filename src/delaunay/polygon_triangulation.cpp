@@ -25,9 +25,14 @@ struct Lattice {
 
 __extension__ using Wide = __int128;
 
+// Exact, with its sign: of thin triangles rounding would leave neither.
+Wide twice_area(const Lattice& a, const Lattice& b, const Lattice& c) {
+  return static_cast<Wide>(b.x - a.x) * (c.y - a.y) - static_cast<Wide>(b.y - a.y) * (c.x - a.x);
+}
+
 // > 0: c lies to the left of the line from a to b.
 int orient(const Lattice& a, const Lattice& b, const Lattice& c) {
-  const Wide det = static_cast<Wide>(b.x - a.x) * (c.y - a.y) - static_cast<Wide>(b.y - a.y) * (c.x - a.x);
+  const Wide det = twice_area(a, b, c);
   return det > 0 ? 1 : det < 0 ? -1 : 0;
 }
 
@@ -164,12 +169,13 @@ bool Builder::convex(int e) const {
 bool Builder::improves(int e) const {
   const auto cotangent = [this](int edge) {
     const Lattice &c = points_[mesh_.apex(edge)], &a = points_[mesh_.origin(edge)], &b = points_[mesh_.target(edge)];
-    const double ax = static_cast<double>(a.x - c.x), ay = aspect_ * static_cast<double>(a.y - c.y);
-    const double bx = static_cast<double>(b.x - c.x), by = aspect_ * static_cast<double>(b.y - c.y);
-    return (ax * bx + ay * by) / (ax * by - ay * bx);
+    const double dot = static_cast<double>(a.x - c.x) * static_cast<double>(b.x - c.x) +
+                       aspect_ * aspect_ * static_cast<double>(a.y - c.y) * static_cast<double>(b.y - c.y);
+    return dot / (aspect_ * static_cast<double>(twice_area(c, a, b)));
   };
-  constexpr double kMargin = 1e-9;  // of a cotangent: a square's two diagonals are equally good
-  return cotangent(e) + cotangent(mesh_.twin(e)) < -kMargin;
+  constexpr double kMargin = 1e-9;  // a square's two diagonals are equally good
+  const double c = cotangent(e), d = cotangent(mesh_.twin(e));
+  return c + d < -kMargin * (1.0 + std::abs(c) + std::abs(d));
 }
 
 void Builder::legalize(std::vector<int> edges) {

@@ -24,7 +24,11 @@ constexpr double kLonger = 1e-6;
 constexpr double kConvex = 1e-3;
 // … and only for a diagonal that is at most this part of the old one.
 constexpr double kShorter = 0.95;
-// A face that wants more vertices than this is asking for a mistake in the units.
+// The lattice is fine enough almost everywhere. Where halving goes on far beyond it the parameterization is singular
+// and normals mean nothing; what is there then has to do.
+constexpr int kLeast = 20'000;
+constexpr int kMostGrowth = 10;
+// A face that wants more lattice points than this is asking for a mistake in the units.
 constexpr int kMostVertices = 4'000'000;
 
 struct PlaneVertex {
@@ -199,7 +203,8 @@ void Builder::halve_edges() {
   for (int e = 0; e < 3 * mesh_.triangle_count(); ++e) {
     if (e < mesh_.twin(e)) consider(e);
   }
-  while (!queue_.empty() && result_.why.empty()) {
+  const int most = kLeast + kMostGrowth * mesh_.vertex_count();
+  while (!queue_.empty() && mesh_.vertex_count() < most) {
     const Candidate c = queue_.top();
     queue_.pop();
     if (mesh_.origin(c.edge) != c.a || mesh_.target(c.edge) != c.b) continue;
@@ -232,11 +237,6 @@ int Builder::end_of_longest_path(int edge) const {
 }
 
 void Builder::halve(int edge) {
-  if (mesh_.vertex_count() >= kMostVertices) {
-    result_.why =
-        "it wants more than " + std::to_string(kMostVertices) + " vertices; a larger --size or --min-size would do";
-    return;
-  }
   const PlaneVertex &a = vertices_[mesh_.origin(edge)], &b = vertices_[mesh_.target(edge)];
   const PlaneVertex middle =
       make_vertex(lerp(a.uv, b.uv, 0.5), std::max(a.h, b.h) + rule_.gradation * 0.5 * image_length(edge));
@@ -350,10 +350,13 @@ Scaffold Builder::run() {
     return result_;
   }
   const std::vector<Uv> inner = lattice();
+  if (inner.size() >= static_cast<size_t>(kMostVertices)) {
+    result_.why = "it wants more than " + std::to_string(kMostVertices) + " vertices at this size";
+    return result_;
+  }
   if (!triangulate(inner)) return result_;
   for (Uv p : inner) vertices_.push_back(make_vertex(p, rule_.size));
   halve_edges();
-  if (!result_.why.empty()) return result_;
   return sew();
 }
 

@@ -24,6 +24,10 @@ constexpr double kOnEdge = 0.02;
 // The geodesic must agree with the estimate this well, or it is another geodesic.
 constexpr double kAgreement = 0.1;
 constexpr double kLengthTolerance = 1e-10;
+// An edge is a fraction of a curvature radius long: where that does not settle at once, the parameterization is at
+// fault, and the estimate is the better answer.
+constexpr int kIterations = 10;
+constexpr int kSteps = 60;
 
 Xyz normal_of(const Xyz& a, const Xyz& b, const Xyz& c) { return (b - a).cross(c - a); }
 
@@ -64,6 +68,9 @@ double SurfaceTriangulation::geodesic_length(int a, int b) const {
     const Polar guess{estimate, angle_of_direction(first_form(j), d)};
     ConnectOptions options;
     options.tolerance = kLengthTolerance;
+    options.max_iterations = kIterations;
+    options.max_steps = kSteps;
+    options.persist = false;
     const Uv target = parameters_near(to, probe_.surface(), from.uv[0], weight());
     const Connection c = connect(probe_.surface(), from.uv[0], target, guess, options);
     if (c.status == ConnectStatus::Converged && std::abs(c.length - estimate) < kAgreement * estimate) return c.length;

@@ -50,10 +50,11 @@ Connection connect(const Surface& surface, Uv from, Uv to, std::optional<Polar> 
     return c.status == ConnectStatus::Converged;
   };
   if (guess && guess->s > 0.0 && attempt(*guess)) return c;
+  if (guess && !options.persist) return c;
   if (!guess) {
     if (const auto near = guess_from_chord(ends); near && attempt(*near)) return c;
   }
-  if (attempt(guess_from_parameters(surface, ends))) return c;
+  if (attempt(guess_from_parameters(surface, ends)) || !options.persist) return c;
   c = connect_along(surface, ends, straight_line(from, to), options);
   c.evaluations += spent;
   return c;

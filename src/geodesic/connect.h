@@ -22,6 +22,10 @@ enum class ConnectStatus {
 struct ConnectOptions {
   double tolerance = 1e-12;  ///< of the end point, relative to the length
   int max_iterations = 30;
+  /// Integrator steps of one shot; a short path that needs many runs through a bad parameterization.
+  int max_steps = 10000;
+  /// Where the first guess fails: try other starts, in the end the energy method. Without it a failure is told at once.
+  bool persist = true;
 };
 
 /// A geodesic between two points.

@@ -35,9 +35,10 @@ struct Shot {
   UvBox reach;
 };
 
-Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance, int& evaluations) {
+Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance, int max_steps, int& evaluations) {
   TraceOptions options;
   options.tolerance = tolerance;
+  options.max_steps = max_steps;
   options.stop_at_domain = false;
   const UvVec d = tangent_components(ends.at_from, tangent_at_angle(ends.at_from, aim.t));
   GeodesicIntegrator path(surface, ends.from, d, aim.s, options);
@@ -134,7 +135,7 @@ Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const Co
   double best = std::numeric_limits<double>::infinity();
   int evaluations = 0;
   for (int i = 1; i <= options.max_iterations; ++i) {
-    const Shot shot = fire(surface, ends, aim, tolerance, evaluations);
+    const Shot shot = fire(surface, ends, aim, tolerance, options.max_steps, evaluations);
     last.length = aim.s;
     last.angle = aim.t;
     last.residual = shot.residual;

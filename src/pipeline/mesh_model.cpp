@@ -53,7 +53,7 @@ std::vector<int> selected(const MeshOptions& o, const CadModel& model) {
 // Border points that keep every face's border polygon simple: where it crosses itself its edges get twice as many
 // points.
 BorderPoints place_border(const CadModel& model, const std::vector<int>& faces, const SizeRule& rule) {
-  constexpr int kMostHalvings = 6;
+  constexpr int kMostHalvings = 4;
   std::vector<double> finer(model.edges.size(), 1.0);
   BorderPoints border = sample_border(model, rule, finer);
   for (int round = 0; round < kMostHalvings; ++round) {
