@@ -78,7 +78,7 @@ struct DiagramCell {
 
 /// Something true about the diagram that its reader must know.
 struct DiagramWarning {
-  std::string kind;  ///< "path_leaves_face", "cut_locus", "unresolved", "areas_differ"
+  std::string kind;  ///< "path_leaves_face", "cut_locus", "unresolved", "seam_is_border", "areas_differ"
   std::vector<int> sites;
   Uv uv;
   std::string text;

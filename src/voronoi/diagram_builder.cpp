@@ -10,6 +10,7 @@
 #include "voronoi/label_changes.h"
 #include "voronoi/path_checks.h"
 #include "voronoi/rival_watch.h"
+#include "voronoi/seam_check.h"
 #include "voronoi/spoke_table.h"
 
 namespace geovor {
@@ -74,6 +75,7 @@ class DiagramBuilder {
       return around.empty() ? -1 : around.front().site;
     };
     assemble_cells(border_, cycle_owner, diagram_);
+    warn_of_seams();
     return std::move(diagram_);
   }
 
@@ -93,6 +95,7 @@ class DiagramBuilder {
   void add_edge(const std::vector<BisectorPoint>& points, SpokeRef start, SpokeRef end);
   DiagramEdge make_edge(const std::vector<BisectorPoint>& points) const;
   void warn(const std::string& kind, const BisectorPoint& m, const std::string& text);
+  void warn_of_seams();
 
   const FaceDomain& domain_;
   std::vector<Uv> sites_;
@@ -109,6 +112,16 @@ class DiagramBuilder {
 
 void DiagramBuilder::warn(const std::string& kind, const BisectorPoint& m, const std::string& text) {
   diagram_.warnings.push_back({kind, {m.left.site, m.right.site}, domain_.to_principal(m.left.uv), text});
+}
+
+void DiagramBuilder::warn_of_seams() {
+  for (Uv seam : seams_taken_for_border(domain_, border_)) {
+    diagram_.warnings.push_back({"seam_is_border",
+                                 {},
+                                 domain_.to_principal(seam),
+                                 "the surface closes on itself here but declares no period: the seam is taken for a "
+                                 "border, at which cells end, and distances know no path across it"});
+  }
 }
 
 void DiagramBuilder::scan_border() {

@@ -1,0 +1,82 @@
+#include "voronoi/seam_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geovor {
+namespace {
+
+// Two flattened curves that are one in space are apart by twice the deflection at most.
+constexpr double kDeflections = 2.0;
+
+// A segment shorter than this many tolerances may be what is left of a pole: it tells nothing.
+constexpr double kTooShort = 4.0;
+
+// Refinements of the nearest place on a segment: its curve bends little.
+constexpr int kRefinements = 4;
+
+struct Part {
+  BorderPlace start;
+  Xyz a, b;
+};
+
+std::vector<Part> parts_of(const FaceBorder& border) {
+  std::vector<Part> parts;
+  for (int c = 0; c < border.cycle_count(); ++c) {
+    for (int k = 0; k < border.segment_count(c); ++k) {
+      const BorderPlace start{c, static_cast<double>(k)};
+      // The end is taken from the segment itself: the next one may start elsewhere, beyond a seam.
+      parts.push_back({start, border.xyz(start), border.xyz_of(border.uv(start) + border.direction(start))});
+    }
+  }
+  return parts;
+}
+
+/// Distance in space from x to the curve of the part; exact where x is near it.
+double distance_to(const FaceBorder& border, const Part& part, const Xyz& x) {
+  const Uv start = border.uv(part.start);
+  const UvVec way = border.direction(part.start);
+  const Xyz chord = part.b - part.a;
+  double k = 0.5;
+  Xyz there = border.xyz_of(start + k * way);
+  for (int i = 0; i < kRefinements; ++i) {
+    k = std::clamp(k + chord.dot(x - there) / chord.squaredNorm(), 0.0, 1.0);
+    there = border.xyz_of(start + k * way);
+  }
+  return (there - x).norm();
+}
+
+/// Whether another stretch of the border lies in the same place. Neighbours touch at their ends only, and what is
+/// looked at is a middle.
+bool lies_twice(const FaceBorder& border, const std::vector<Part>& parts, size_t self, const Xyz& middle,
+                double tolerance) {
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Xyz &a = parts[i].a, &b = parts[i].b;
+    const double chord = (b - a).norm();
+    if (i == self || !(chord > 0.0) || !((0.5 * (a + b) - middle).norm() < chord)) continue;
+    if (distance_to(border, parts[i], middle) <= tolerance) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Uv> seams_taken_for_border(const FaceDomain& domain, const FaceBorder& border) {
+  const double tolerance = kDeflections * domain.deflection();
+  const std::vector<Part> parts = parts_of(border);
+  std::vector<Uv> seams;
+  int found_on = -1;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const BorderPlace middle{parts[i].start.cycle, parts[i].start.parameter + 0.5};
+    if (middle.cycle == found_on || !((parts[i].b - parts[i].a).norm() > kTooShort * tolerance)) continue;
+    const Uv uv = border.uv(middle);
+    if (!(domain.distance_to_border(uv) > tolerance) && !lies_twice(border, parts, i, border.xyz_of(uv), tolerance)) {
+      continue;
+    }
+    found_on = middle.cycle;
+    seams.push_back(uv);
+  }
+  return seams;
+}
+
+}  // namespace geovor
