@@ -61,5 +61,45 @@ TEST(Warnings, NoSeamIsNamedWhereThereIsNoneOrThePeriodIsDeclared) {
           .empty());
 }
 
+std::set<int> sites_with_hidden_parts(const TestFace& face, const std::vector<Uv>& sites) {
+  std::set<int> out;
+  for (const DiagramWarning& w : warnings_of(face, sites, "path_leaves_face")) out.insert(w.sites.at(0));
+  return out;
+}
+
+TestFace ell() {
+  return TestFace(std::make_shared<Plane>(Frame{})).polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
+}
+
+using Sites = std::set<int>;
+
+// From (0.5, 0.5) all of the L is seen; from the end of one arm the end of the other is not.
+TEST(Warnings, PathsAroundTheCornerOfAnLAreNamedForTheSitesTheyStartFrom) {
+  EXPECT_EQ(sites_with_hidden_parts(ell(), {{0.5, 0.5}}), Sites{});
+  EXPECT_EQ(sites_with_hidden_parts(ell(), {{1.8, 0.9}}), Sites{0});
+  EXPECT_EQ(sites_with_hidden_parts(ell(), {{1.8, 0.9}, {0.5, 0.5}}), Sites{0});
+  EXPECT_EQ(sites_with_hidden_parts(ell(), {{0.5, 0.5}, {1.8, 0.2}, {0.2, 1.8}}), Sites{});
+}
+
+// The hole's shadow falls on the edge x = 0 between y = 0.42 and y = 0.59: neither on its ends nor on its middle.
+TEST(Warnings, AHoleInTheWayToAnyPartOfAnEdgeIsNamed) {
+  TestFace face = plane_square();
+  face.polygon({{-0.27, 0.23}, {-0.27, 0.27}, {-0.23, 0.27}, {-0.23, 0.23}});
+  EXPECT_EQ(sites_with_hidden_parts(face, {{-0.5, 0.0}, {0.5, 0.0}}), Sites{0});
+}
+
+// The hole's shadow falls on the left side of the square alone.
+TEST(Warnings, AHoleInTheWayToTheBorderIsNamed) {
+  TestFace face = plane_square();
+  face.polygon({{-0.82, 0.08}, {-0.82, 0.12}, {-0.78, 0.12}, {-0.78, 0.08}});
+  EXPECT_EQ(sites_with_hidden_parts(face, {{-0.5, 0.0}, {0.5, 0.0}}), Sites{0});
+}
+
+TEST(Warnings, NoPathIsNamedOnConvexFaces) {
+  const TestFace face = plane_square();
+  EXPECT_EQ(sites_with_hidden_parts(face, random_sites(face.domain(), 9, 3)), Sites{});
+  EXPECT_EQ(sites_with_hidden_parts(TestFace(tube()).ring(kOnce), kTubeSites), Sites{});
+}
+
 }  // namespace
 }  // namespace geovor::testing
