@@ -162,6 +162,29 @@ TEST(CurvedDiagram, FindsTheIslandOnABump) {
   EXPECT_NEAR(u, 0.384006670378, 1e-2);
 }
 
+// Two bumps, each with a site on its top: two islands in the cell of the site between them (the paper's figure 6). The
+// picture is its own mirror image in u = 0.
+TEST(CurvedDiagram, FindsTwoIslandsOnTwoBumps) {
+  const std::vector<GaussianBumps::Bump> bumps = {{{-1, 0.2}, 3.0, 0.3}, {{1, 0.2}, 3.0, 0.3}};
+  const TestFace face = whole(std::make_shared<GaussianBumps>(bumps, UvBox{{-2, 2}, {-2, 2}}));
+  const FaceDomain domain = face.domain();
+  const VoronoiDiagram d = build_diagram(domain, {{0, -1}, {-1, 0.2}, {1, 0.2}});
+  EXPECT_TRUE(resolved(d));
+  EXPECT_EQ(broken_topology(d), "");
+  EXPECT_LT(worst_mismatch(domain.surface(), d), 1e-10);
+  EXPECT_NEAR(area_of_cells(d), face_area(face.model, face.model.faces[0]).value, 1e-2);
+  EXPECT_NEAR(d.cells[1].area, d.cells[2].area, 1e-6);
+  for (int island : {1, 2}) {
+    ASSERT_EQ(d.cells[island].loops.size(), 1u);
+    for (const CellPiece& piece : d.cells[island].loops[0]) {
+      ASSERT_GE(piece.edge, 0) << "an island does not touch the border";
+      const DiagramEdge& e = d.edges[piece.edge];
+      EXPECT_EQ(std::min(e.left, e.right), 0);
+      EXPECT_EQ(std::max(e.left, e.right), island);
+    }
+  }
+}
+
 /// Vertices as (sorted sites, place), in an order of their own.
 std::vector<std::pair<std::vector<int>, Xyz>> sorted_vertices(const VoronoiDiagram& d, const std::vector<int>& rename) {
   std::vector<std::pair<std::vector<int>, Xyz>> out;
