@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
+#include <string>
 
 #include "base/error.h"
 #include "commands.h"
@@ -19,8 +22,8 @@
 namespace geovor {
 namespace {
 
-/// What the diagram calls a part that it could not compute.
-const char* const kUnresolved = "unresolved";
+/// Kinds of warnings that say that a part of the diagram is missing.
+const std::set<std::string> kIncomplete = {"unresolved", "areas_differ", "cut_locus"};
 
 const CadFace& chosen_face(const CadModel& model, const VoronoiArguments& arguments) {
   const int count = static_cast<int>(model.faces.size());
@@ -129,16 +132,19 @@ void print_summary(const CadModel& model, const CadFace& face, const VoronoiResu
   line("warnings", warnings_text(diagram));
 }
 
-/// A line on stderr for every part that could not be computed; whether there is none.
-bool name_failures(const CadModel& model, const CadFace& face, const VoronoiDiagram& diagram) {
-  bool complete = true;
-  for (const DiagramWarning& warning : diagram.warnings) {
-    if (warning.kind != kUnresolved) continue;
-    complete = false;
-    fmt::print(stderr, "geovor: {}: {}: near u = {:.6g}, v = {:.6g}: {}; move the sites there a little\n", model.file,
-               face_label(face.number), warning.uv.u, warning.uv.v, warning.text);
-  }
-  return complete;
+/// A line on stderr where the diagram is not whole, with the first place that tells why; whether it is.
+bool name_failure(const CadModel& model, const CadFace& face, const VoronoiDiagram& diagram) {
+  const auto& all = diagram.warnings;
+  const auto bad = [](const DiagramWarning& w) { return kIncomplete.count(w.kind) > 0; };
+  const auto first = std::find_if(all.begin(), all.end(), bad);
+  if (first == all.end()) return true;
+  fmt::print(
+      stderr,
+      "geovor: {}: {}: the diagram is not whole ({} places, the first near u = {:.6g}, v = {:.6g}: {}); more sites, or "
+      "other ones, may mend it\n",
+      model.file, face_label(face.number), std::count_if(all.begin(), all.end(), bad), first->uv.u, first->uv.v,
+      first->text);
+  return false;
 }
 
 }  // namespace
@@ -152,8 +158,14 @@ int run(const VoronoiArguments& arguments) {
   const CadFace& face = in_context(arguments.input, [&]() -> const CadFace& { return chosen_face(model, arguments); });
   const VoronoiResult result = compute(model, face, arguments, file);
   const double seconds_diagram = watch.lap();
+  if (!std::isfinite(largest_residual(result.diagram))) {
+    throw Error(
+        ErrorCode::FaceRejected,
+        fmt::format("{}: {}: the diagram of these sites could not be finished; more sites, or other ones, may mend it",
+                    model.file, face_label(face.number)));
+  }
   write_outputs(arguments, source_of(model, face, result), result);
-  const bool complete = name_failures(model, face, result.diagram);
+  const bool complete = name_failure(model, face, result.diagram);
   print_summary(model, face, result);
   fmt::print("{:<17} read {:.2f}, diagram {:.2f}, write {:.2f}\n", "seconds", seconds_read, seconds_diagram,
              watch.lap());

@@ -22,7 +22,8 @@ void wait_and_end(sigset_t signals) {
   int signal = 0;
   if (sigwait(&signals, &signal) != 0) return;
   remove_staged_outputs();
-  std::fputs("\ngeovor: interrupted\n", stderr);
+  // A terminal has the progress line or ^C before it.
+  std::fputs(isatty(STDERR_FILENO) != 0 ? "\ngeovor: interrupted\n" : "geovor: interrupted\n", stderr);
   _exit(kInterruptedExit);
 }
 

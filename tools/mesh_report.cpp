@@ -38,9 +38,9 @@ std::string closed_text(const MeshSummary& summary) {
   return text;
 }
 
-Json options_json(const MeshArguments& arguments) {
+Json options_json(const MeshArguments& arguments, double smallest_size) {
   return {{"size", arguments.size},
-          {"min_size", arguments.min_size},
+          {"min_size", smallest_size},
           {"deflection", std::isfinite(arguments.deflection) ? Json(arguments.deflection) : Json(nullptr)},
           {"angle", arguments.angle},
           {"gradation", arguments.gradation},
@@ -140,7 +140,7 @@ std::string report_json(const MeshSummary& s) {
                          {"generator", "geovor " GEOVOR_VERSION},
                          {"input", s.model->file},
                          {"unit", s.model->unit},
-                         {"options", options_json(*s.arguments)},
+                         {"options", options_json(*s.arguments, s.result->smallest_size)},
                          {"warnings", s.model->warnings},
                          {"totals",
                           {{"faces", s.result->faces.size()},

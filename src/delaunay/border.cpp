@@ -17,6 +17,10 @@ constexpr int kStationsPerPiece = 24;
 // However coarse the rule: a segment turns by no more than this, so that a hole stays a hole.
 constexpr double kLargestTurn = std::numbers::pi / 4;
 
+// An edge shorter than this share of the smallest size is an accident of the CAD: its neighbours need not follow.
+constexpr double kShortest = 0.02;
+// Of a turn that was summed up from chords, in parts of kLargestTurn.
+constexpr double kRoundingOfTurn = 1e-6;
 // A border point's size is at most this many times the length of its segments.
 constexpr double kFollow = 1.3;
 
@@ -125,7 +129,7 @@ void Sampler::look_at(int edge) {
   }
   // An edge shorter than its size is one segment, and its neighbours must be allowed to be as short.
   const double length = st.s.back();
-  for (double& h : st.h) h = std::min(h, std::max(length, 1e-3 * rule_.size));
+  for (double& h : st.h) h = std::min(h, std::max(length, kShortest * rule_.min_size));
 }
 
 // h(x) <= h(y) + gradation * (distance along the edges): Dijkstra's algorithm with the stations as nodes.
@@ -211,7 +215,7 @@ void Sampler::place(int edge) {
     work[i] = work[i - 1] + segments_between(st.s[i] - st.s[i - 1], st.h[i - 1], st.h[i]);
   }
   const bool closed = e.first_vertex == e.last_vertex;
-  const int least = std::max(closed ? 3 : 1, static_cast<int>(std::ceil(st.turn / kLargestTurn - 1e-6)));
+  const int least = std::max(closed ? 3 : 1, static_cast<int>(std::ceil(st.turn / kLargestTurn - kRoundingOfTurn)));
   const int n = std::max(least, static_cast<int>(std::lround(work.back())));
   out.points.push_back(vertex_point(e.first_vertex, edge, e.range.lo));
   out.t.push_back(e.range.lo);

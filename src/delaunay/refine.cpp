@@ -87,24 +87,17 @@ bool insert_into(SurfaceTriangulation& mesh, int t) {
   return insert_near(mesh, middle, t);
 }
 
-int insert_voronoi_vertices(SurfaceTriangulation& mesh, int& too_large) {
+void insert_voronoi_vertices(SurfaceTriangulation& mesh) {
   Worklist work(mesh);
   for (int t = 0; t < mesh.topology().triangle_count(); ++t) work.consider(t);
-  int inserted = 0;
-  too_large = 0;
   for (int t = work.next(); t != HalfEdges::kNone; t = work.next()) {
-    if (!insert_into(mesh, t)) {
-      ++too_large;
-      continue;
-    }
-    ++inserted;
+    if (!insert_into(mesh, t)) continue;
     const HalfEdges& topo = mesh.topology();
     for (int e : topo.star(topo.vertex_count() - 1)) {
       work.consider(e / 3);
       if (topo.twin(HalfEdges::next(e)) != HalfEdges::kNone) work.consider(topo.twin(HalfEdges::next(e)) / 3);
     }
   }
-  return inserted;
 }
 
 int thin_out(SurfaceTriangulation& mesh) {
@@ -187,23 +180,18 @@ void grade(SurfaceTriangulation& mesh) {
 
 }  // namespace
 
-RefineResult refine(SurfaceTriangulation& mesh) {
-  RefineResult result;
+void refine(SurfaceTriangulation& mesh) {
   mesh.decide_by_geodesics(false);
   mesh.flip_all();
   for (int round = 0; round < kRounds; ++round) {
     mesh.decide_by_geodesics(round + 1 == kRounds);
     grade(mesh);
-    int removed = 0;
-    do {
-      removed = thin_out(mesh);
-      result.removed += removed;
-    } while (removed > 0);
-    result.inserted += insert_voronoi_vertices(mesh, result.too_large);
+    while (thin_out(mesh) > 0) {
+    }
+    insert_voronoi_vertices(mesh);
     for (int i = 0; i < kSmoothings; ++i) smooth(mesh);
   }
   mesh.compact();
-  return result;
 }
 
 }  // namespace geovor

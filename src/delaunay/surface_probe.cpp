@@ -15,6 +15,8 @@ constexpr double kVanishing = 1e-7;
 // Below this sine the two derivatives count as parallel.
 constexpr double kParallel = 1e-9;
 
+// The first step, in parts of the way to the middle of the box, by which a singular point is left.
+constexpr double kFirstStep = 1e-6;
 // A border curve may bulge beyond the points at which it was looked at, by this share of the box.
 constexpr double kBulge = 0.05;
 constexpr int kLooks = 16;
@@ -67,7 +69,7 @@ SurfaceSample SurfaceProbe::at(Uv p) const {
   s.x = j.S;
   s.regular = regular(j);
   // The limit of normal and curvature: ever larger steps towards the middle, until the derivatives come back.
-  for (double step = 1e-6; !regular(j) && step < 0.5; step *= 10.0) {
+  for (double step = kFirstStep; !regular(j) && step < 0.5; step *= 10.0) {
     j = surface_.jet(lerp(p, {box_.u.middle(), box_.v.middle()}, step));
   }
   s.n = unit_normal(j);

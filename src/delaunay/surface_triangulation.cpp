@@ -21,6 +21,8 @@ constexpr double kDoubt = 0.02;
 constexpr double kTie = 1e-9;
 // A point this near to an edge, in parts of the triangle, is put on the edge.
 constexpr double kOnEdge = 0.02;
+// The area of a triangle that is flat to rounding, in parts of its sides' squares.
+constexpr double kFlat = 1e-12;
 // The geodesic must agree with the estimate this well, or it is another geodesic.
 constexpr double kAgreement = 0.1;
 constexpr double kLengthTolerance = 1e-10;
@@ -39,7 +41,7 @@ double cotangent(double p, double q, double r) {
       (s[0] + (s[1] + s[2])) * (s[2] - (s[0] - s[1])) * (s[2] + (s[0] - s[1])) * (s[0] + (s[1] - s[2]));
   const double area4 = std::sqrt(std::max(product, 0.0));
   const double numerator = p * p + q * q - r * r;
-  return numerator / std::max(area4, 1e-12 * (p * p + q * q));
+  return numerator / std::max(area4, kFlat * (p * p + q * q));
 }
 
 }  // namespace

@@ -23,8 +23,14 @@ void require(bool holds, const std::string& message) {
   if (!holds) throw Error(ErrorCode::Usage, message);
 }
 
+// A part of a million triangles has a diagonal of about 700 sizes. Far beyond that the unit is mistaken.
+constexpr double kMostSizesAcross = 1e4;
+
 void validate(const MeshOptions& o, const CadModel& model) {
   require(o.size > 0.0 && std::isfinite(o.size), "the size must be a positive length; give --size a number above 0");
+  require(model.diagonal() <= kMostSizesAcross * o.size,
+          "the size is less than 1/10000 of the model's diagonal; give a larger --size (the lengths here are in " +
+              model.unit + ")");
   require(o.min_size >= 0.0 && o.min_size <= o.size, "the smallest size must lie between 0 and the size");
   require(o.deflection > 0.0, "the deflection must be a positive length");
   require(o.angle > 0.0, "the angle must be positive");
@@ -34,11 +40,6 @@ void validate(const MeshOptions& o, const CadModel& model) {
         n >= 1 && n <= static_cast<int>(model.faces.size()),
         "there is no Face" + std::to_string(n) + "; the file has Face1 to Face" + std::to_string(model.faces.size()));
   }
-}
-
-SizeRule size_rule(const MeshOptions& o) {
-  constexpr double kDefaultMinimum = 1.0 / 20;  // of the size: small fillets are followed, a cusp does not run away
-  return {o.size, o.min_size > 0.0 ? o.min_size : o.size * kDefaultMinimum, o.deflection, o.angle, o.gradation};
 }
 
 std::vector<int> selected(const MeshOptions& o, const CadModel& model) {
@@ -133,13 +134,23 @@ void describe(const CadFace& face, const BorderPoints& border, const FaceMesh& p
 
 }  // namespace
 
+double smallest_size(const MeshOptions& options, const CadModel& model) {
+  if (options.min_size > 0.0) return options.min_size;
+  // Small fillets are followed, and a cusp does not run away; a size beyond the part itself does not make it coarser.
+  constexpr double kOfSize = 1.0 / 20, kOfDiagonal = 1.0 / 10;
+  const double diagonal = model.diagonal();
+  return kOfSize * (diagonal > 0.0 ? std::min(options.size, kOfDiagonal * diagonal) : options.size);
+}
+
 MeshResult mesh_model(const CadModel& model, const MeshOptions& options) {
   validate(options, model);
-  const SizeRule rule = size_rule(options);
+  const SizeRule rule{options.size, smallest_size(options, model), options.deflection, options.angle,
+                      options.gradation};
   const std::vector<int> faces = selected(options, model);
   const int total = static_cast<int>(faces.size());
 
   MeshResult result;
+  result.smallest_size = rule.min_size;
   auto start = Clock::now();
   const BorderPoints border = place_border(model, faces, rule);
   result.seconds_borders = seconds_since(start);

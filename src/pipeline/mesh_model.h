@@ -14,7 +14,7 @@ namespace geovor {
 /// What the mesh is to be like. The smallest of the rules holds at each place, graded by `gradation`.
 struct MeshOptions {
   double size = 0.0;      ///< the length that an edge is to have, model units; REQUIRES > 0
-  double min_size = 0.0;  ///< no rule asks for less than this; 0: size / 20
+  double min_size = 0.0;  ///< no rule asks for less than this; 0: smallest_size()
   double deflection = std::numeric_limits<double>::infinity();  ///< largest distance from a triangle to the face
   double angle = 0.26179938779914943;  ///< largest turn of the normal across an edge, radians (15 degrees)
   double gradation = 0.5;              ///< how fast the size may grow with distance: h(x) <= h(y) + gradation * d(x, y)
@@ -52,8 +52,13 @@ struct FaceReport {
 struct MeshResult {
   TriangleMesh mesh;  ///< of the faces that were meshed, in the order of their numbers
   std::vector<FaceReport> faces;
+  double smallest_size = 0.0;  ///< that the rules were allowed to ask for
   double seconds_borders = 0.0, seconds_faces = 0.0;
 };
+
+/// The smallest size that the rules may ask for: options.min_size, or, where that is 0, a twentieth of the size (of a
+/// tenth of the model's diagonal, where the size is larger than that).
+double smallest_size(const MeshOptions& options, const CadModel& model);
 
 /// Throws Error(Usage) where an option makes no sense; a face that fails is no error but a status in its report.
 MeshResult mesh_model(const CadModel& model, const MeshOptions& options);

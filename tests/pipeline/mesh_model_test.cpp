@@ -41,6 +41,27 @@ TEST(MeshModel, RefusesOptionsThatMakeNoSense) {
   EXPECT_NE(refusal(o).find("gradation"), std::string::npos);
 }
 
+TEST(MeshModel, RefusesASizeThatMistakesTheUnit) {
+  CadModel model = plate(1000.0, 0.0);
+  model.upper = {1000, 1000, 0};
+  try {
+    mesh_model(model, of_size(0.01));
+    FAIL() << "a hundred million triangles";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("larger --size"), std::string::npos);
+  }
+}
+
+// A size beyond the part itself leaves the shape to the other rules.
+TEST(MeshModel, IsNoCoarserForASizeBeyondThePart) {
+  CadModel model = whole_sphere(1.0);
+  model.lower = {-1, -1, -1};
+  model.upper = {1, 1, 1};
+  const MeshResult r = mesh_model(model, of_size(1e9));
+  EXPECT_EQ(r.faces[0].status, FaceStatus::Meshed);
+  EXPECT_GT(quality(r.mesh).volume, 0.97 * 4.0 / 3.0 * kPi);
+}
+
 TEST(MeshModel, TurnsTheTrianglesOfAReversedFace) {
   CadModel model = whole_sphere(2.0);
   const double outward = quality(mesh_model(model, of_size(0.4)).mesh).volume;

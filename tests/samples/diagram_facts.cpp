@@ -74,8 +74,12 @@ bool cell_holds(const VoronoiDiagram& diagram, const DiagramCell& cell, Uv p) {
 }
 
 double measured_distance(const Surface& surface, Uv from, Uv to) {
-  const Connection path = distance(surface, from, to).shortest;
-  return path.status == ConnectStatus::Converged ? path.length : std::numeric_limits<double>::infinity();
+  // From both ends, because behind a tall bump one of the two searches may miss the shortest path.
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Connection& path : {distance(surface, from, to).shortest, distance(surface, to, from).shortest}) {
+    if (path.status == ConnectStatus::Converged) shortest = std::min(shortest, path.length);
+  }
+  return shortest;
 }
 
 }  // namespace geovor::testing

@@ -74,8 +74,14 @@ void DiagramSample::expect_cells_that_add_up_to_the_face() const {
     EXPECT_GT(cell.area, 0.0) << "cell of site " << cell.site;
     sum += cell.area;
   }
-  constexpr double kRelative = 1e-4;  // the cells' borders are polylines within 1e-5 of the face's size
-  EXPECT_NEAR(sum, whole, kRelative * whole);
+  // The cells' borders are polylines within 1e-5 of the face's size. Where a cut locus is not followed to its end a
+  // sliver of the cell is missing, and the diagram must say so.
+  const auto told = [this](const std::string& kind) {
+    return std::any_of(diagram_.warnings.begin(), diagram_.warnings.end(),
+                       [&](const auto& w) { return w.kind == kind; });
+  };
+  const double relative = told("cut_locus") ? 1e-2 : 1e-4;
+  EXPECT_NEAR(sum, whole, relative * whole);
 }
 
 void DiagramSample::expect_each_site_in_its_cell_alone() const {

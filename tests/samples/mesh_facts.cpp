@@ -108,10 +108,23 @@ TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<int>& face_numb
   return part;
 }
 
-double area_by_quadrature(const CadModel& model) {
+double area_by_dense_sum(const CadModel& model) {
+  constexpr int kCells = 200;
   double sum = 0.0;
-  for (const CadFace& face : model.faces)
-    if (face.surface) sum += face_area(model, face).value;
+  for (const CadFace& face : model.faces) {
+    if (!face.surface) continue;
+    const FaceDomain domain(model, face, 1e-5 * model.diagonal());
+    const UvBox box = domain.box();
+    const double du = box.u.length() / kCells, dv = box.v.length() / kCells;
+    for (int i = 0; i < kCells; ++i) {
+      for (int k = 0; k < kCells; ++k) {
+        const Uv middle{box.u.lo + (i + 0.5) * du, box.v.lo + (k + 0.5) * dv};
+        if (!domain.contains(middle)) continue;
+        const SurfaceJet j = face.surface->jet(middle);
+        sum += j.Su.cross(j.Sv).norm() * du * dv;
+      }
+    }
+  }
   return sum;
 }
 
