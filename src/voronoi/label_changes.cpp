@@ -13,7 +13,7 @@ constexpr int kMostSteps = 100;
 // Each split adds a label that was not known; more than this many in one step of a lattice are noise.
 constexpr int kDeepest = 24;
 
-// See kSameGuess in labels.cpp: the same rule, at one step's distance.
+// See kSameGuess in site_ray.h: the same rule, at one step's distance.
 constexpr double kSameLabel = 0.5;
 
 /// The generator's ray to another place of the path.

@@ -11,18 +11,8 @@ namespace {
 // lattice deviates from the geodesic that it follows.
 constexpr double kKeep = 3.0;
 
-// A guess carried from a neighbour and a geodesic already known at the node are the same if they agree to this part of
-// the lattice's reach: the guess errs by the square of the reach over the radius of curvature, a second geodesic of the
-// same site that matters comes from another side.
-constexpr double kSameGuess = 0.25;
-
 // Two arrivals of one geodesic, as a part of the reach: they agree to kRoughly of their length.
 constexpr double kSameArrival = 1e-3;
-
-bool near_guess(const SiteRay& ray, int site, const Polar& guess, double reach) {
-  if (ray.site != site) return false;
-  return std::abs(ray.polar.s - guess.s) + std::abs(ray.y * wrap_angle(ray.polar.t - guess.t)) < kSameGuess * reach;
-}
 
 struct Arrival {
   double length;

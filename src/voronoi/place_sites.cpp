@@ -1,5 +1,6 @@
 #include "voronoi/place_sites.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -39,7 +40,8 @@ class FarthestPoints {
   explicit FarthestPoints(const FaceDomain& domain, double spacing)
       : lattice_(domain, spacing, {}),
         rays_(domain.surface(), sites_),
-        distance_(lattice_.count(), std::numeric_limits<double>::infinity()) {
+        distance_(lattice_.count(), std::numeric_limits<double>::infinity()),
+        known_(lattice_.count()) {
     for (int node = 0; node < lattice_.count(); ++node) {
       if (!lattice_.inside(node)) continue;
       inside_.push_back(node);
@@ -61,8 +63,9 @@ class FarthestPoints {
       if (a.ray.polar.s > distance_[a.node]) continue;
       for (const auto& z : lattice_.neighbours(a.node)) {
         const Polar guess = carry(a.ray, lattice_.xyz(z.node));
-        if (guess.s > 0.0 && guess.s < distance_[z.node] * (1.0 - kTie))
+        if (guess.s > 0.0 && guess.s < distance_[z.node] * (1.0 - kTie) && !known(z.node, site, guess)) {
           offer(z.node, rays_.roughly_to(site, z.uv, guess));
+        }
       }
     }
   }
@@ -90,8 +93,18 @@ class FarthestPoints {
     }
   };
 
+  // A node has up to eight neighbours that carry the same geodesic on to it: one of them is enough.
+  bool known(int node, int site, const Polar& guess) const {
+    const auto near = [&](const SiteRay& ray) { return near_guess(ray, site, guess, lattice_.reach(node)); };
+    return std::any_of(known_[node].begin(), known_[node].end(), near);
+  }
+
   void offer(int node, const std::optional<SiteRay>& ray) {
-    if (!ray || !(ray->polar.s < distance_[node])) return;
+    if (!ray) return;
+    auto& known = known_[node];
+    if (!known.empty() && known.front().site != ray->site) known.clear();
+    known.push_back(*ray);
+    if (!(ray->polar.s < distance_[node])) return;
     distance_[node] = ray->polar.s;
     queue_.push({node, *ray});
   }
@@ -99,7 +112,8 @@ class FarthestPoints {
   FaceLattice lattice_;
   std::vector<Uv> sites_;
   SiteRays rays_;
-  std::vector<double> distance_;  ///< to the nearest site
+  std::vector<double> distance_;             ///< to the nearest site
+  std::vector<std::vector<SiteRay>> known_;  ///< geodesics computed for the last site that reached the node
   std::vector<int> inside_;
   std::vector<double> to_border_;
   std::priority_queue<Arrival> queue_;

@@ -6,9 +6,6 @@
 namespace geovor {
 namespace {
 
-// See kSameGuess in labels.cpp.
-constexpr double kSameGuess = 0.25;
-
 // Two rays to one point are the same if they agree to this part of the reach; the rougher ones do to kRoughly of their
 // length.
 constexpr double kSameRay = 1e-3;
