@@ -74,7 +74,7 @@ bool cell_holds(const VoronoiDiagram& diagram, const DiagramCell& cell, Uv p) {
 }
 
 double measured_distance(const Surface& surface, Uv from, Uv to) {
-  // From both ends, because behind a tall bump one of the two searches may miss the shortest path.
+  // From both ends, because behind a tall bump a search may miss the shortest path.
   double shortest = std::numeric_limits<double>::infinity();
   for (const Connection& path : {distance(surface, from, to).shortest, distance(surface, to, from).shortest}) {
     if (path.status == ConnectStatus::Converged) shortest = std::min(shortest, path.length);

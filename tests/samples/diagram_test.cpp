@@ -49,7 +49,9 @@ void DiagramSample::expect_vertices_as_far_as_said_and_no_site_nearer() const {
       const double measured = distance_to_site(site, vertex.uv);
       const bool own = std::find(vertex.sites.begin(), vertex.sites.end(), site) != vertex.sites.end();
       EXPECT_GE(measured, vertex.radius * (1.0 - kRelative)) << "site " << site;
-      if (own) {
+      // A vertex of one site is the end of its cut locus, next to a conjugate point: there the referee's shooting is
+      // singular.
+      if (own && vertex.sites.size() > 1) {
         EXPECT_LE(measured, vertex.radius * (1.0 + kRelative)) << "site " << site;
       }
     }
