@@ -38,7 +38,7 @@ std::string text(double x) {
 Uv locate(const FaceDomain& domain, int index, const Xyz& x, double tolerance, bool snap) {
   const Projection p = project(domain.surface(), x, domain.box());
   if (!snap && !(p.distance <= tolerance)) {
-    throw SiteError(index, -1, "lies off the face by " + text(p.distance) + "; move it onto the face, or snap it");
+    throw SiteError(index, -1, "lies off the face by " + text(p.distance) + "; move it onto the face, or give --snap");
   }
   return domain.to_principal(p.uv);
 }
@@ -57,7 +57,12 @@ std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request
   if (count == 0 && request.spacing > 0.0) {
     // A hexagonal arrangement with this distance between neighbours.
     const double cell = 0.5 * std::numbers::sqrt3 * request.spacing * request.spacing;
-    count = std::max(1, static_cast<int>(std::lround(rough_area(domain) / cell)));
+    const double wanted = rough_area(domain) / cell;
+    constexpr double kMostSites = 1e6;
+    if (!(wanted <= kMostSites)) {
+      throw Error(ErrorCode::Usage, "the spacing asks for more than a million sites; give a larger --spacing");
+    }
+    count = std::max(1, static_cast<int>(std::lround(wanted)));
   }
   if (count <= 0) throw Error(ErrorCode::Usage, "no sites; give some, or a positive number of them");
   return place_sites(domain, count, request.seed);

@@ -107,6 +107,12 @@ TEST(VoronoiFace, GivesTheSameDiagramForTheSameSeedOnly) {
   EXPECT_NE(places(4), places(5));
 }
 
+TEST(VoronoiFace, RefusesASpacingThatAsksForMillionsOfSites) {
+  VoronoiRequest request;
+  request.spacing = 1e-6;
+  EXPECT_EQ(refusal(square(), request), ErrorCode::Usage);
+}
+
 TEST(VoronoiFace, RefusesARequestWithoutSitesAndAFaceWithoutSurface) {
   EXPECT_EQ(refusal(square(), {}), ErrorCode::Usage);
   EXPECT_EQ(refusal(square(), counted(-3, 0)), ErrorCode::Usage);
