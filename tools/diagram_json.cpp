@@ -1,4 +1,4 @@
-#include "io/diagram_json.h"
+#include "diagram_json.h"
 
 #include <nlohmann/json.hpp>
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "io/diagram_json.h"
+#include "diagram_json.h"
 #include "io/diagram_svg.h"
 
 namespace geovor {
