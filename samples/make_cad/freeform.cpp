@@ -119,8 +119,8 @@ TopoDS_Shape freeform_trimmed() {
   face.Add(circular_hole(surface, 0.7, 0.3, 0.08));
   face.Add(circular_hole(surface, 0.6, 0.75, 0.15));
   const TopoDS_Face result = face.Face();
-  BRepLib::BuildCurves3d(result, 1e-7);
-  BRepLib::SameParameter(result, 1e-7);
+  BRepLib::BuildCurves3d(result, Precision::Confusion());
+  BRepLib::SameParameter(result, Precision::Confusion());
   return result;
 }
 

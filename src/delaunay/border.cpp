@@ -1,6 +1,7 @@
 #include "delaunay/border.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -235,7 +236,8 @@ void Sampler::place(int edge) {
   // Where the points had to be closer than the rule asks, the mesh beside them has to follow.
   for (int k = 0; k < n; ++k) {
     const int a = out.points[k], b = out.points[k + 1];
-    const double spacing = kFollow * (result_.points[b] - result_.points[a]).norm();
+    const double spacing =
+        std::max(kFollow * (result_.points[b] - result_.points[a]).norm(), kShortest * rule_.min_size);
     result_.size[a] = std::min(result_.size[a], spacing);
     result_.size[b] = std::min(result_.size[b], spacing);
   }

@@ -40,7 +40,7 @@ FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRu
   const SurfaceProbe probe(*face.surface, parameter_box(face));
   Scaffold scaffold = build_scaffold(face, probe, border, rule);
   if (!scaffold.ok) {
-    out.why = scaffold.why + "; repair the face in the CAD system, or leave it out with --faces";
+    out.why = scaffold.why;
     return out;
   }
   SurfaceTriangulation mesh(std::move(scaffold.triangles), std::move(scaffold.vertices), probe, rule);

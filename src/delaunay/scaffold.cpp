@@ -34,7 +34,6 @@ constexpr int kMostVertices = 4'000'000;
 struct PlaneVertex {
   Uv uv;
   Xyz x, n;
-  double curvature = 0.0;
   double h = 0.0;
   int border = -1;
 };
@@ -82,9 +81,7 @@ class Builder {
 
 PlaneVertex Builder::make_vertex(Uv uv, double h_bound) const {
   const SurfaceSample s = probe_.at(uv);
-  PlaneVertex v{uv, s.x, s.n, s.curvature, 0.0, -1};
-  v.h = std::min(rule_.at(s.curvature), h_bound);
-  return v;
+  return {uv, s.x, s.n, std::min(rule_.at(s.curvature), h_bound), -1};
 }
 
 void Builder::collect_border() {
@@ -120,7 +117,7 @@ void Builder::collect_border() {
 }
 
 bool Builder::triangulate(const std::vector<Uv>& inner) {
-  UvBox box = probe_.box();
+  const UvBox& box = probe_.box();
   const double aspect = probe_.v_speed() * box.v.length() / (probe_.u_speed() * box.u.length());
   PolygonTriangulation flat = triangulate_polygon(loops_, inner, std::isfinite(aspect) && aspect > 0.0 ? aspect : 1.0);
   if (!flat.ok) {

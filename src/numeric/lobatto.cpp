@@ -22,12 +22,13 @@ std::pair<double, double> legendre(int n, double x) {
 // step for (1 - x^2) P_n' is (P_(n-1) - x P_n) / ((n + 1) P_n).
 double interior_node(int n, int i) {
   constexpr int kIterations = 30;
+  constexpr double kSettled = 1e-16;               // below the rounding of a node
   double x = -std::cos(std::numbers::pi * i / n);  // the Chebyshev nodes are close
   for (int k = 0; k < kIterations; ++k) {
     const auto [p, before] = legendre(n, x);
     const double step = (before - x * p) / ((n + 1) * p);
     x += step;
-    if (!(std::abs(step) > 1e-16)) break;
+    if (!(std::abs(step) > kSettled)) break;
   }
   return x;
 }

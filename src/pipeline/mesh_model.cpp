@@ -180,8 +180,11 @@ MeshResult mesh_model(const CadModel& model, const MeshOptions& options) {
     } else {
       parts[i].why = face.problems.empty() ? "it has no surface that can be used" : face.problems.front();
     }
-    report.why = parts[i].why;
-    if (parts[i].ok) describe(face, border, parts[i], report);
+    if (parts[i].ok) {
+      describe(face, border, parts[i], report);
+    } else {
+      report.why = parts[i].why + "; repair the face in the CAD system, or leave it out with --faces";
+    }
     report.seconds = seconds_since(face_start);
     const std::lock_guard lock(progress_mutex);
     ++done;

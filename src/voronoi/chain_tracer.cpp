@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "surface/forms.h"
 #include "voronoi/rival_watch.h"
@@ -171,8 +172,9 @@ ChainTracer::Step ChainTracer::advance(Walk& walk) const {
   }
   walk.watch.accept(*next);
   walk.chain.points.push_back(*next);
-  constexpr double kGrowth = 2.0, kSafety = 0.8;
-  walk.step = h * std::clamp(kSafety * std::sqrt(tolerance_ / std::max(sag, 1e-300)), 0.5, kGrowth);
+  constexpr double kShrink = 0.5, kGrowth = 2.0, kSafety = 0.8;
+  constexpr double kStraight = std::numeric_limits<double>::min();  // no sag at all: grow as far as allowed
+  walk.step = h * std::clamp(kSafety * std::sqrt(tolerance_ / std::max(sag, kStraight)), kShrink, kGrowth);
   return Step::Going;
 }
 

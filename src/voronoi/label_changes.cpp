@@ -33,7 +33,8 @@ std::optional<LabelChange> find_change(const CandidateLabels& labels, const UvPa
   };
   const auto f_hi = difference(hi), f_lo = difference(lo);
   if (!f_lo || !f_hi) return std::nullopt;
-  const auto root = [&](double f) { return std::abs(f) <= 0.05 * kDistanceNoise * before.polar.s; };
+  constexpr double kOfNoise = 0.05;  // differences cancel most of the noise of one distance
+  const auto root = [&](double f) { return std::abs(f) <= kOfNoise * kDistanceNoise * before.polar.s; };
   double a = lo, b = hi, fa = *f_lo, fb = *f_hi, k = lo;
   int last_side = 0;
   if (!root(fa) && root(fb)) {

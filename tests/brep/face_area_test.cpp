@@ -98,10 +98,10 @@ TEST(FaceArea, ClosesTheGapsThatTheCadLeaves) {
   FaceBuilder b(plane());
   b.loop();
   const double gap = 1e-6;
-  b.add(b.edge(), std::make_shared<Line2>(Uv{0, 0}, Uv{1e5, 0}));
-  b.add(b.edge(), std::make_shared<Line2>(Uv{1e5, gap}, Uv{1e5, 1}));
-  b.add(b.edge(), std::make_shared<Line2>(Uv{1e5, 1}, Uv{0, 1}));
-  b.add(b.edge(), std::make_shared<Line2>(Uv{0, 1}, Uv{0, 0}));
+  b.add(b.edge(), std::make_shared<Segment>(Uv{0, 0}, Uv{1e5, 0}));
+  b.add(b.edge(), std::make_shared<Segment>(Uv{1e5, gap}, Uv{1e5, 1}));
+  b.add(b.edge(), std::make_shared<Segment>(Uv{1e5, 1}, Uv{0, 1}));
+  b.add(b.edge(), std::make_shared<Segment>(Uv{0, 1}, Uv{0, 0}));
   EXPECT_NEAR(face_area(b.model(), b.face()).value, 1e5, 1e-6);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "brep/model.h"
+#include "support/segment.h"
 
 namespace geovor::testing {
 
@@ -78,19 +79,6 @@ inline SurfacePtr paraboloid(double a) {
   });
 }
 
-class Line2 final : public Curve2 {
- public:
-  Line2(Uv a, Uv b) : a_(a), b_(b) {}
-  Interval domain() const override { return {0, 1}; }
-  CurveJet<2> jet(double t) const override {
-    const Uv p = lerp(a_, b_, t);
-    return {{p.u, p.v}, {b_.u - a_.u, b_.v - a_.v}, {0, 0}, {0, 0}};
-  }
-
- private:
-  Uv a_, b_;
-};
-
 /// An ellipse with axes along u and v; t from 0 to 2 pi, counter-clockwise.
 class Ellipse2 final : public Curve2 {
  public:
@@ -128,7 +116,7 @@ class FaceBuilder {
   FaceBuilder& polygon(const std::vector<Uv>& corners) {
     loop();
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      add(edge(), std::make_shared<Line2>(corners[i], corners[(i + 1) % corners.size()]));
+      add(edge(), std::make_shared<Segment>(corners[i], corners[(i + 1) % corners.size()]));
     }
     return *this;
   }
@@ -144,10 +132,10 @@ class FaceBuilder {
     loop();
     const int seam = edge(), bottom = edge(bottom_is_pole), top = edge(top_is_pole);
     const double u1 = u0 + 2 * kPi;
-    add(bottom, std::make_shared<Line2>(Uv{u0, v0}, Uv{u1, v0}));
-    add(seam, std::make_shared<Line2>(Uv{u1, v0}, Uv{u1, v1}));
-    add(top, std::make_shared<Line2>(Uv{u0, v1}, Uv{u1, v1}), true);
-    return add(seam, std::make_shared<Line2>(Uv{u0, v0}, Uv{u0, v1}), true);
+    add(bottom, std::make_shared<Segment>(Uv{u0, v0}, Uv{u1, v0}));
+    add(seam, std::make_shared<Segment>(Uv{u1, v0}, Uv{u1, v1}));
+    add(top, std::make_shared<Segment>(Uv{u0, v1}, Uv{u1, v1}), true);
+    return add(seam, std::make_shared<Segment>(Uv{u0, v0}, Uv{u0, v1}), true);
   }
 
   const CadModel& model() const { return model_; }

@@ -4,27 +4,12 @@
 #include <numbers>
 
 #include "brep/model.h"
+#include "support/segment.h"
 #include "surface/elementary_surfaces.h"
 
 namespace geovor::testing {
 
 inline constexpr double kPi = std::numbers::pi;
-
-/// The straight segment from a (t = 0) to b (t = 1) of the parameter plane.
-class Segment final : public Curve2 {
- public:
-  Segment(Uv a, Uv b) : a_(a), d_(b - a) {}
-  Interval domain() const override { return {0, 1}; }
-  CurveJet<2> jet(double t) const override {
-    return {{a_.u + t * d_.u, a_.v + t * d_.v}, {d_.u, d_.v}, {0, 0}, {0, 0}};
-  }
-  Uv at(double t) const { return a_ + t * d_; }
-  UvVec direction() const { return d_; }
-
- private:
-  Uv a_;
-  UvVec d_;
-};
 
 /// The image of a segment on a surface.
 class SegmentOnSurface final : public Curve3 {

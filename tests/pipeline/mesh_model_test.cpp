@@ -97,7 +97,8 @@ TEST(MeshModel, NamesTheFaceThatHasNoSurfaceAndMeshesTheOther) {
   EXPECT_EQ(r.faces[0].status, FaceStatus::Meshed);
   EXPECT_NEAR(r.faces[0].mesh_area, 8.0, 1e-12);
   EXPECT_EQ(r.faces[1].status, FaceStatus::Rejected);
-  EXPECT_EQ(r.faces[1].why, model.faces[1].problems[0]);
+  EXPECT_EQ(r.faces[1].why,
+            model.faces[1].problems[0] + "; repair the face in the CAD system, or leave it out with --faces");
 }
 
 TEST(MeshModel, StopsWhenToldTo) {

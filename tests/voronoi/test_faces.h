@@ -8,25 +8,13 @@
 #include <vector>
 
 #include "brep/face_domain.h"
+#include "support/segment.h"
 #include "surface/analytic_surfaces.h"
 #include "surface/elementary_surfaces.h"
 
 namespace geovor::testing {
 
 inline constexpr double kPi = std::numbers::pi;
-
-class Line2 final : public Curve2 {
- public:
-  Line2(Uv a, Uv b) : a_(a), b_(b) {}
-  Interval domain() const override { return {0, 1}; }
-  CurveJet<2> jet(double t) const override {
-    const Uv p = lerp(a_, b_, t);
-    return {{p.u, p.v}, {b_.u - a_.u, b_.v - a_.v}, {0, 0}, {0, 0}};
-  }
-
- private:
-  Uv a_, b_;
-};
 
 /// Stands for an edge's curve, of which diagrams ask nothing.
 class NoCurve final : public Curve3 {
@@ -54,7 +42,7 @@ struct TestFace {
   }
 
   void side(int edge, Uv a, Uv b, bool reversed = false) {
-    model.faces[0].loops.back().coedges.push_back({edge, std::make_shared<Line2>(a, b), {0, 1}, reversed});
+    model.faces[0].loops.back().coedges.push_back({edge, std::make_shared<Segment>(a, b), {0, 1}, reversed});
   }
 
   TestFace& polygon(const std::vector<Uv>& corners) {
