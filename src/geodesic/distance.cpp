@@ -84,25 +84,63 @@ void try_grid(const Surface& surface, Uv from, Uv to, const DistanceOptions& opt
   keep(all, connect_along(surface, Ends(surface, from, path.back()), path, options.connect));
 }
 
+void sort_by_length(std::vector<Connection>& all) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Connection& a, const Connection& b) { return a.length < b.length; });
+}
+
+// Lengths that differ by less are equal as far as two runs of the solver can tell.
+double tie(const DistanceOptions& options) {
+  constexpr double kErrors = 10.0;
+  return kErrors * options.connect.tolerance;
+}
+
+std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Connection& c) {
+  if (!c.leaves_domain) return std::nullopt;
+  const TraceResult path = trace_geodesic(surface, from, c.start_direction, c.length);
+  return DomainExit{path.end.p, path.length};
+}
+
+void conclude(const Surface& surface, Uv from, const DistanceOptions& options, DistanceResult& result) {
+  sort_by_length(result.candidates);
+  if (result.candidates.empty()) return;
+  result.shortest = result.candidates.front();
+  result.status = result.shortest.status;
+  for (const Connection& c : result.candidates)
+    if (c.length <= result.shortest.length * (1.0 + tie(options))) result.shortest_paths.push_back(c);
+  result.leaves_at = first_exit(surface, from, result.shortest);
+}
+
 }  // namespace
 
-DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOptions& options) {
+DistanceFinder::DistanceFinder(SurfacePtr surface, const DistanceOptions& options)
+    : surface_(std::move(surface)), options_(options) {}
+
+DistanceFinder::DistanceFinder(const Surface& surface, const DistanceOptions& options)
+    : DistanceFinder(SurfacePtr(std::shared_ptr<const Surface>(), &surface), options) {}
+
+DistanceResult DistanceFinder::distance(Uv from, Uv to, std::optional<Polar> guess) const {
+  const Surface& surface = *surface_;
+  const DistanceOptions& options = options_;
   DistanceResult result;
   if (auto closed = connections_closed_form(surface, from, to)) {
     result.candidates = std::move(*closed);
-    result.shortest = result.candidates.front();
+    result.certainty = Certainty::ClosedForm;
+    result.doubt = Doubt::None;
+    conclude(surface, from, options, result);
     return result;
   }
   const auto ways_u = both_ways(to.u - from.u, surface.u_period());
   const auto ways_v = both_ways(to.v - from.v, surface.v_period());
   const Uv nearest = from + UvVec{ways_u.front(), ways_v.front()};
   const Connection straight = connect(surface, from, nearest, std::nullopt, options.connect);
+  if (guess) keep(result.candidates, connect(surface, from, to, guess, options.connect));
   keep(result.candidates, straight);
-  if (straight.status == ConnectStatus::Converged && straight.length == 0.0) {
-    result.shortest = straight;
-    return result;
-  }
-  if (straight.status != ConnectStatus::DegenerateMetric) {
+  result.shortest = straight;
+  result.status = straight.status;
+  result.doubt = Doubt::NotSearched;
+  const bool zero = straight.status == ConnectStatus::Converged && straight.length == 0.0;
+  if (straight.status != ConnectStatus::DegenerateMetric && !zero) {
     for (const double du : ways_u)
       for (const double dv : ways_v) {
         const Ends ends(surface, from, from + UvVec{du, dv});
@@ -111,10 +149,40 @@ DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOp
       }
     if (options.grid > 0) try_grid(surface, from, nearest, options, result.candidates);
   }
-  std::stable_sort(result.candidates.begin(), result.candidates.end(),
-                   [](const Connection& a, const Connection& b) { return a.length < b.length; });
-  result.shortest = result.candidates.empty() ? straight : result.candidates.front();
+  conclude(surface, from, options, result);
+  for (const Connection& c : result.candidates) result.evaluations += c.evaluations;
+  if (result.status == ConnectStatus::DegenerateMetric) result.doubt = Doubt::Degenerate;
+  if (result.status == ConnectStatus::NotConverged) result.doubt = Doubt::NotConverged;
   return result;
+}
+
+DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOptions& options) {
+  return DistanceFinder(surface, options).distance(from, to);
+}
+
+std::string explain(const DistanceResult& result) {
+  switch (result.certainty) {
+    case Certainty::ClosedForm:
+      return "certain: the surface's geodesics are known in closed form";
+    case Certainty::Curvature:
+      return "certain: no second geodesic this short can exist, for the curvature round about";
+    case Certainty::Fan:
+      return "certain: the geodesics that leave the first point were searched all round as far as the path is long";
+    case Certainty::None:
+      break;
+  }
+  switch (result.doubt) {
+    case Doubt::Degenerate:
+      return "not certain: a place without tangent plane stands in the way";
+    case Doubt::NotSearched:
+      return "not certain: the points are far from each other, and the way all round was not searched";
+    case Doubt::FanLost:
+      return "not certain: some of the geodesics that leave the first point could not be followed far enough";
+    case Doubt::NotConverged:
+    case Doubt::None:
+      break;
+  }
+  return "not certain: no geodesic between the two was found";
 }
 
 }  // namespace geovor

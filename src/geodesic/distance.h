@@ -1,6 +1,9 @@
 // The distance between two points of a surface: the shortest of the geodesics that join them.
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "geodesic/connect.h"
@@ -14,15 +17,69 @@ struct DistanceOptions {
   int grid = 24;
 };
 
-struct DistanceResult {
-  Connection shortest;                 ///< status as connect() has it
-  std::vector<Connection> candidates;  ///< every different geodesic that was found, by length; the first is `shortest`
+/// Why the shortest path that was found is the shortest.
+enum class Certainty {
+  ClosedForm,  ///< the surface's geodesics are known in closed form
+  Curvature,   ///< the points are too near to each other, for the curvature thereabouts, to have a second geodesic
+  Fan,         ///< the geodesics that leave `from` were searched all round as far as the shortest path is long
+  None,        ///< it is not certain; `doubt` says why
 };
 
-/// The shortest geodesic between two points of the surface's domain. Starts from the straight line in the parameter
-/// plane (in a periodic direction: both ways round), and from a graph path on a coarse grid measured in space; keeps
-/// the shortest. On a plane, cylinder or sphere the answer is the closed form. Does not promise that no shorter
-/// geodesic exists; the tests measure how often one does.
+/// Why a distance is not certain.
+enum class Doubt {
+  None,
+  NotConverged,  ///< no geodesic was found
+  Degenerate,    ///< an end, or what lies between the two, has no tangent plane
+  NotSearched,   ///< the points are far from each other and no fan was asked for
+  FanLost,       ///< a part of the fan could not be followed
+};
+
+/// The first place at which a path leaves the surface's domain.
+struct DomainExit {
+  Uv at;
+  double s = 0.0;  ///< arc length from the path's start
+};
+
+struct DistanceResult {
+  ConnectStatus status = ConnectStatus::NotConverged;
+  Connection shortest;
+  /// All shortest paths where several tie within the accuracy (`from` and `to` are on each other's cut locus);
+  /// else `shortest` alone. Empty unless converged.
+  std::vector<Connection> shortest_paths;
+  /// The shortest paths are a one-parameter family (antipodes of a sphere): every direction works, and
+  /// `shortest_paths` holds one of them.
+  bool family = false;
+  std::vector<Connection> candidates;  ///< every different geodesic that was found, by length; the first is `shortest`
+  Certainty certainty = Certainty::None;
+  Doubt doubt = Doubt::NotConverged;
+  std::optional<DomainExit>
+      leaves_at;  ///< of `shortest`: it is then shortest on the surface continued, not on the domain
+  int evaluations = 0;
+};
+
+/// One line in words: whether the distance is certain, and why (not).
+std::string explain(const DistanceResult& result);
+
+/// What is known of one surface once, so that a near query costs one connect(). Immutable: any number of threads may
+/// ask it.
+class DistanceFinder {
+ public:
+  explicit DistanceFinder(SurfacePtr surface, const DistanceOptions& options = {});
+  /// REQUIRES: the surface outlives the finder.
+  explicit DistanceFinder(const Surface& surface, const DistanceOptions& options = {});
+
+  /// The shortest geodesic between two points of the surface's domain. `guess` saves time where it is good and costs
+  /// nothing in safety where it is not.
+  DistanceResult distance(Uv from, Uv to, std::optional<Polar> guess = std::nullopt) const;
+
+  const Surface& surface() const { return *surface_; }
+
+ private:
+  SurfacePtr surface_;
+  DistanceOptions options_;
+};
+
+/// The same for a single question: makes a finder for it.
 DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOptions& options = {});
 
 }  // namespace geovor
