@@ -3,7 +3,7 @@
 - A room includes only itself and the rooms that its CMakeLists.txt names in DEPENDS; those names make no cycle.
 - The table of docs/ARCHITECTURE.md says the same.
 - No file includes itself by way of others.
-- OpenCASCADE's headers (*.hxx) stay in occ_adapter, samples and tests, and in occ_adapter in .cpp files and occ_private.h.
+- OpenCASCADE's headers (*.hxx) stay in occ_adapter, samples, benchmarks and tests, and in occ_adapter in .cpp files and occ_private.h.
 - No C++ file is longer than 600 lines.
 """
 
@@ -86,11 +86,11 @@ def check_table(root, rooms):
 
 
 def check_kernel_headers(root):
-    for path in sources(root, "src", "occ_adapter", "tools", "samples", "tests"):
+    for path in sources(root, "src", "occ_adapter", "tools", "samples", "benchmarks", "tests"):
         names = [name for _, name in includes(path) if name.endswith(".hxx")]
         where = path.relative_to(root).as_posix()
         allowed = where == "occ_adapter/occ_private.h" or (
-            where.startswith(("samples/", "tests/")) or (where.startswith("occ_adapter/") and path.suffix == ".cpp"))
+            where.startswith(("samples/", "benchmarks/", "tests/")) or (where.startswith("occ_adapter/") and path.suffix == ".cpp"))
         if names and not allowed:
             yield f"{where}: OpenCASCADE's {names[0]} may be included by occ_adapter's .cpp files and occ_private.h only"
 
@@ -111,7 +111,7 @@ def check_file_cycles(root):
 
 
 def check_lengths(root):
-    for path in sources(root, "src", "occ_adapter", "tools", "samples", "tests"):
+    for path in sources(root, "src", "occ_adapter", "tools", "samples", "benchmarks", "tests"):
         lines = len(path.read_text().splitlines())
         if lines > LONGEST_FILE:
             yield f"{path.relative_to(root)}: {lines} lines where {LONGEST_FILE} are allowed"
