@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/ellipsoid_cap.h"
+#include "surface/pole_chart.h"
+
 namespace geovor {
 namespace {
 
@@ -47,6 +50,8 @@ SurfaceJet Ellipsoid::jet(Uv p) const {
   return {{a * cu * cv, b * su * cv, c * sv}, {-a * su * cv, b * cu * cv, 0.0}, {-a * cu * sv, -b * su * sv, c * cv},
           {-a * cu * cv, -b * su * cv, 0.0},  {a * su * sv, -b * cu * sv, 0.0}, {-a * cu * cv, -b * su * cv, -c * sv}};
 }
+
+PoleCharts Ellipsoid::make_poles() const { return ellipsoid_poles({}, a_, b_, c_); }
 
 UvBox Catenoid::domain() const { return {kFullTurn, v_range_}; }
 std::optional<double> Catenoid::u_period() const { return kFullTurn.length(); }

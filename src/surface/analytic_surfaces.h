@@ -3,14 +3,10 @@
 
 #include <vector>
 
+#include "surface/height_jet.h"
 #include "surface/surface.h"
 
 namespace geovor {
-
-/// Value and derivatives of a function of (u, v).
-struct HeightJet {
-  double f, fu, fv, fuu, fuv, fvv;
-};
 
 /// The graph (u, v, f(u, v)) over a rectangle.
 class GraphSurface : public Surface {
@@ -77,6 +73,7 @@ class Ellipsoid final : public Surface {
   using Surface::jet;
 
  private:
+  PoleCharts make_poles() const override;
   double a_, b_, c_;
 };
 

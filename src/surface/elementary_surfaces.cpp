@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "surface/ellipsoid_cap.h"
+#include "surface/pole_chart.h"
 
 namespace geovor {
 namespace {
@@ -91,6 +93,7 @@ SurfaceJet Sphere::jet(Uv p) const {
   const double c = radius_ * std::cos(p.v), s = radius_ * std::sin(p.v);
   return revolve(frame_, p.u, {c, s, -s, c, -c, -s});
 }
+PoleCharts Sphere::make_poles() const { return ellipsoid_poles(frame_, radius_, radius_, radius_); }
 
 Torus::Torus(const Frame& frame, double major_radius, double minor_radius)
     : frame_(checked(frame)), major_(checked_radius(major_radius)), minor_(checked_radius(minor_radius)) {}

@@ -74,6 +74,7 @@ class Sphere final : public Surface {
   double radius() const { return radius_; }
 
  private:
+  PoleCharts make_poles() const override;
   Frame frame_;
   double radius_;
 };

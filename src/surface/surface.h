@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/interval.h"
 #include "base/uv.h"
@@ -30,6 +31,23 @@ enum class SurfaceKind { Plane, Cylinder, Cone, Sphere, Torus, BSpline, Revoluti
 
 /// "plane", "cylinder", …: the words that the program prints.
 std::string to_string(SurfaceKind kind);
+
+class PoleChart;  // surface/pole_chart.h
+using PoleCharts = std::vector<std::shared_ptr<const PoleChart>>;
+
+/// What a surface finds out once, when it is first asked for it, from whatever thread. A copy starts anew.
+class PoleCache {
+ public:
+  PoleCache();
+  ~PoleCache();
+  PoleCache(const PoleCache&) : PoleCache() {}
+  PoleCache& operator=(const PoleCache& other);
+  const PoleCharts& get(const class Surface& surface) const;
+
+ private:
+  struct Entry;
+  std::unique_ptr<Entry> entry_;
+};
 
 /// A parametric surface. Immutable, so that any number of threads may evaluate it.
 class Surface {
@@ -72,6 +90,16 @@ class Surface {
   /// creases, kSmooth where it is analytic.
   static constexpr int kSmooth = 99;
   virtual int continuity() const { return kSmooth; }
+
+  /// Charts of the places where a side of the domain, in a direction that is not periodic, is one point of space but
+  /// the surface is smooth all the same (surface/pole_chart.h). The tip of a cone is no such place. Made at the first
+  /// call; safe from any thread.
+  const PoleCharts& poles() const { return pole_cache_.get(*this); }
+
+ private:
+  friend class PoleCache;
+  virtual PoleCharts make_poles() const { return {}; }
+  PoleCache pole_cache_;
 };
 
 using SurfacePtr = std::shared_ptr<const Surface>;

@@ -1,0 +1,11 @@
+// Value and derivatives of a function of two variables, the height of a graph.
+#pragma once
+
+namespace geovor {
+
+/// f(u, v) and its partial derivatives up to the second order.
+struct HeightJet {
+  double f, fu, fv, fuu, fuv, fvv;
+};
+
+}  // namespace geovor
