@@ -130,36 +130,49 @@ double FaceDomain::distance_to_border(Uv p) const {
   return std::sqrt(std::max(nearest2, 0.0));
 }
 
+// Ascending places k of lerp(a, b, k), 0 and 1 among them, between which the segment does not meet the border. The
+// border meets the segment where it meets one of the copies that reach into the box.
+std::vector<double> FaceDomain::border_crossings(Uv a, Uv b) const {
+  const UvBox around = widened_by_rounding(index_);
+  const UvBox reach{{around.u.lo - std::max(0.0, b.u - a.u), around.u.hi + std::max(0.0, a.u - b.u)},
+                    {around.v.lo - std::max(0.0, b.v - a.v), around.v.hi + std::max(0.0, a.v - b.v)}};
+  std::vector<double> k{0.0, 1.0};
+  any_copy(*surface_, reach, a, [&](Uv copy) {
+    index_.meet(copy, copy + (b - a), k);
+    return false;
+  });
+  std::sort(k.begin(), k.end());
+  k.erase(std::unique(k.begin(), k.end()), k.end());
+  return k;
+}
+
 std::optional<FaceDomain::Exit> FaceDomain::first_exit(const std::vector<Uv>& path, double slack) const {
   if (path.empty()) return std::nullopt;
-  const auto deep_outside = [&](Uv p) { return !contains(p) && distance_to_border(p) > slack; };
-  if (deep_outside(path[0])) return Exit{0, path[0]};
-  std::optional<Exit> excursion;  // since where the path has been outside, though not deep
-  const UvBox around = widened_by_rounding(index_);
+  std::optional<Exit> excursion;  // since where the path has been outside
+  bool deep = false;              // and whether it went beyond the slack
+  const auto look_outside = [&](const PathPlace& since, Uv p) {
+    if (!excursion) excursion = Exit{since, std::nullopt};
+    deep = deep || distance_to_border(p) > slack;
+  };
+  if (!contains(path[0])) look_outside({0, 0.0, path[0]}, path[0]);
   for (int n = 0; n + 1 < static_cast<int>(path.size()); ++n) {
     const Uv a = path[n], b = path[n + 1];
-    // The border meets the segment where it meets one of the copies that reach into the box.
-    const UvBox reach{{around.u.lo - std::max(0.0, b.u - a.u), around.u.hi + std::max(0.0, a.u - b.u)},
-                      {around.v.lo - std::max(0.0, b.v - a.v), around.v.hi + std::max(0.0, a.v - b.v)}};
-    std::vector<double> k{0.0, 1.0};
-    any_copy(*surface_, reach, a, [&](Uv copy) {
-      index_.meet(copy, copy + (b - a), k);
-      return false;
-    });
-    std::sort(k.begin(), k.end());
+    const std::vector<double> k = border_crossings(a, b);
     for (std::size_t i = 0; i + 1 < k.size(); ++i) {
-      if (k[i] == k[i + 1]) continue;
+      const PathPlace begin{n, k[i], lerp(a, b, k[i])};
       const Uv middle = lerp(a, b, 0.5 * (k[i] + k[i + 1]));
-      if (contains(middle)) {
+      if (!contains(middle)) {
+        look_outside(begin, middle);
+      } else if (deep) {
+        excursion->back = begin;
+        return excursion;
+      } else {
         excursion.reset();
-        continue;
       }
-      if (!excursion) excursion = Exit{n, lerp(a, b, k[i])};
-      if (distance_to_border(middle) > slack) return excursion;
     }
-    if (excursion && deep_outside(b)) return excursion;
+    if (!contains(b)) look_outside({n, 1.0, b}, b);
   }
-  return std::nullopt;
+  return deep ? excursion : std::nullopt;
 }
 
 std::vector<Interval> FaceDomain::inside_at(double v) const {

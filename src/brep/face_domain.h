@@ -32,13 +32,19 @@ class FaceDomain {
   /// border; infinity where there is none. In a periodic direction the nearest copy counts.
   double distance_to_border(Uv p) const;
 
-  /// Where a polyline (with values that run on across seams) leaves the face.
-  struct Exit {
-    int segment = 0;  ///< from path[segment] to path[segment + 1]
-    Uv uv;            ///< the last place inside, on the border
+  /// A place on a polyline, path[segment] + k (path[segment + 1] - path[segment]).
+  struct PathPlace {
+    int segment = 0;
+    double k = 0.0;
+    Uv uv;
   };
-  /// The first place after which the path leaves the face, or nothing where it stays inside; Exit{0, path[0]} where it
-  /// starts outside. An excursion that stays within `slack` (space) of the border, by default the deflection of the
+  /// Where a polyline (with values that run on across seams) leaves the face, and where it comes back.
+  struct Exit {
+    PathPlace out;                  ///< the last place inside, on the border
+    std::optional<PathPlace> back;  ///< the next place inside, on the border; nothing where the path stays outside
+  };
+  /// The first excursion of the path from the face, or nothing where it stays inside; `out` is path[0] where it starts
+  /// outside. An excursion that stays within `slack` (space) of the border, by default the deflection of the
   /// flattening, is none: a path along a curved border stays inside.
   std::optional<Exit> first_exit(const std::vector<Uv>& path, double slack) const;
   std::optional<Exit> first_exit(const std::vector<Uv>& path) const { return first_exit(path, deflection_); }
@@ -54,6 +60,8 @@ class FaceDomain {
   double deflection() const { return deflection_; }
 
  private:
+  std::vector<double> border_crossings(Uv a, Uv b) const;
+
   SurfacePtr surface_;
   double deflection_;
   std::vector<std::vector<Uv>> loops_;

@@ -23,11 +23,9 @@ constexpr int kPathSamples = 24;
 constexpr double kSwing = 0.03;
 
 // An excursion that stays this near to the border, as a part of the path's length, is none: the chords between the
-// samples sag by as much, and going round it lengthens the path by less than its square.
+// samples sag by as much, and going round it lengthens the path by less than its square. So a path whose end lies on
+// the border, or beyond it by rounding, has not left.
 constexpr double kShallow = 5e-4;
-
-// An exit this near to the path's end, as a part of its length, is the end.
-constexpr double kAtTheEnd = 1e-6;
 
 // Of the integrator: far below what is shallow.
 constexpr double kPathTolerance = 1e-7;
@@ -99,9 +97,7 @@ void PathWatch::look(int site, Polar to) {
     path.push_back(state.p);
   }
   const auto exit = domain_.first_exit(path, std::max(domain_.deflection(), kShallow * to.s));
-  // The end itself may lie on the border, or beyond it by rounding.
-  if (!exit || (surface.position(exit->uv) - surface.position(path.back())).norm() < kAtTheEnd * to.s) return;
-  exits_[site] = domain_.to_principal(exit->uv);
+  if (exit) exits_[site] = domain_.to_principal(exit->out.uv);
 }
 
 void PathWatch::look_along(const DiagramEdge& e, bool left) {

@@ -161,15 +161,22 @@ TEST(FaceDomain, FindsWhereAPathLeaves) {
   // Both ends inside, the hole between them.
   const auto hole = d.first_exit({{1, 1}, {1, 5}, {9, 5}});
   ASSERT_TRUE(hole);
-  EXPECT_EQ(hole->segment, 1);
-  EXPECT_NEAR(hole->uv.u, 4.0, 1e-3);
+  EXPECT_EQ(hole->out.segment, 1);
+  EXPECT_NEAR(hole->out.uv.u, 4.0, 1e-3);
+  EXPECT_NEAR(hole->out.k, 3.0 / 8.0, 1e-3);
+  ASSERT_TRUE(hole->back);
+  EXPECT_EQ(hole->back->segment, 1);
+  EXPECT_NEAR(hole->back->uv.u, 6.0, 1e-3);
   const auto out = d.first_exit({{1, 1}, {3, 2}, {-1, 2}, {3, 3}});
   ASSERT_TRUE(out);
-  EXPECT_EQ(out->segment, 1);
-  EXPECT_NEAR(out->uv.u, 0.0, 1e-12);
+  EXPECT_EQ(out->out.segment, 1);
+  EXPECT_NEAR(out->out.uv.u, 0.0, 1e-12);
+  ASSERT_TRUE(out->back);
+  EXPECT_EQ(out->back->segment, 2);
+  EXPECT_NEAR(out->back->uv.u, 0.0, 1e-12);
   const auto from_outside = d.first_exit({{5, 5}, {1, 1}});
   ASSERT_TRUE(from_outside);
-  EXPECT_EQ(from_outside->segment, 0);
+  EXPECT_EQ(from_outside->out.segment, 0);
 }
 
 TEST(FaceDomain, DoesNotCallAWalkAlongTheBorderAnExit) {
@@ -193,9 +200,10 @@ TEST(FaceDomain, LetsAPathCrossASeamButNotTheRim) {
   EXPECT_FALSE(d.first_exit({{6.0, 1.0}, {7.0, 2.0}, {20.0, 4.0}, {-20.0, 1.0}}));
   const auto rim = d.first_exit({{6.0, 1.0}, {20.0, 4.0}, {22.0, 6.0}});
   ASSERT_TRUE(rim);
-  EXPECT_EQ(rim->segment, 1);
-  EXPECT_NEAR(rim->uv.u, 21.0, 1e-9);
-  EXPECT_NEAR(rim->uv.v, 5.0, 1e-9);
+  EXPECT_EQ(rim->out.segment, 1);
+  EXPECT_NEAR(rim->out.uv.u, 21.0, 1e-9);
+  EXPECT_NEAR(rim->out.uv.v, 5.0, 1e-9);
+  EXPECT_FALSE(rim->back);
 }
 
 TEST(FaceDomain, SaysWhatIsWrongWithABrokenFace) {
