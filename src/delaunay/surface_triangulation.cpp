@@ -67,7 +67,7 @@ double SurfaceTriangulation::geodesic_length(int a, int b) const {
   if (from.regular() && estimate > 0.0) {
     const SurfaceJet j = probe_.surface().jet(from.uv[0]);
     const UvVec d = tangent_components(j, to.x - from.x);
-    const Polar guess{estimate, angle_of_direction(first_form(j), d)};
+    const Polar guess{estimate, angle_of_direction(j, d)};
     ConnectOptions options;
     options.tolerance = kLengthTolerance;
     options.max_iterations = kIterations;

@@ -60,6 +60,20 @@ Christoffel christoffel(const SurfaceJet& j) {
   return {r.u.dot(j.Suu), r.u.dot(j.Suv), r.u.dot(j.Svv), r.v.dot(j.Suu), r.v.dot(j.Suv), r.v.dot(j.Svv)};
 }
 
+double area_ratio(const SurfaceJet& j) { return j.Su.cross(j.Sv).norm(); }
+
+double norm(const SurfaceJet& j, UvVec d) { return push_forward(j, d).norm(); }
+
+UvVec direction_at_angle(const SurfaceJet& j, double t) {
+  const double W = area_ratio(j), root_E = j.Su.norm(), s = std::sin(t);
+  return {(std::cos(t) - j.Su.dot(j.Sv) * s / W) / root_E, root_E * s / W};
+}
+
+// With d = cos t e1 + sin t e2 (times its length): d . Su = |Su| cos t, and W d.v = |Su| sin t.
+double angle_of_direction(const SurfaceJet& j, UvVec d) {
+  return std::atan2(area_ratio(j) * d.v, j.Su.dot(push_forward(j, d)));
+}
+
 double dot(const FirstForm& I, UvVec a, UvVec b) {
   return I.E * a.u * b.u + I.F * (a.u * b.v + a.v * b.u) + I.G * a.v * b.v;
 }

@@ -41,6 +41,21 @@ SecondForm second_form(const SurfaceJet& j);
 Curvatures curvatures(const SurfaceJet& j);
 Christoffel christoffel(const SurfaceJet& j);
 
+/// W = |Su x Sv|, the area that a unit square of parameters covers. With the three functions after it: taken from the
+/// jet's vectors, because EG - F^2 loses the square of what the angle between Su and Sv costs. Where parameter lines
+/// meet at an angle of 1/k these keep their digits but for a factor k, which is in the parameters themselves.
+double area_ratio(const SurfaceJet& j);
+
+/// Length of a parameter direction measured on the surface.
+double norm(const SurfaceJet& j, UvVec d);
+
+/// The unit direction at angle t in the frame e1 = Su/|Su|, e2 = n x e1 (erratum to definition 3.2):
+/// u' = (cos t - F sin t / W) / sqrt(E), v' = sqrt(E) sin t / W.
+UvVec direction_at_angle(const SurfaceJet& j, double t);
+
+/// The inverse of direction_at_angle, in (-pi, pi], for a direction of any length.
+double angle_of_direction(const SurfaceJet& j, UvVec d);
+
 /// Length of a parameter direction measured on the surface.
 double norm(const FirstForm& I, UvVec d);
 double dot(const FirstForm& I, UvVec a, UvVec b);

@@ -44,7 +44,7 @@ class AreaRule {
     TraceOptions options;
     options.stop_at_domain = false;
     const Uv uv = rays_.site(site);
-    const UvVec d = direction_at_angle(first_form(rays_.surface().jet(uv)), p.t);
+    const UvVec d = direction_at_angle(rays_.surface().jet(uv), p.t);
     const auto states = sample_geodesic(rays_.surface(), uv, d, p.s, kRayPieces, options);
     if (states.size() != kRayPieces + 1) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
@@ -105,7 +105,7 @@ class AreaRule {
       const UvVec rest = nearest_copy(rays_.surface(), a, piece.border_uv[i + 1]);
       if (!(std::hypot(rest.u, rest.v) > 0.5 * std::hypot(way.u, way.v)))
         continue;  // from one side of a seam to the other
-      const double length = norm(first_form(rays_.surface().jet(lerp(a, a + way, 0.5))), way);
+      const double length = norm(rays_.surface().jet(lerp(a, a + way, 0.5)), way);
       // Parts as long as a fraction of the distance to the site, which changes no faster than they go on.
       for (double done = 0.0; done < 1.0;) {
         const double off = last ? last->polar.s : length;

@@ -32,10 +32,10 @@ DualEdge join(const SiteRays& rays, const DiagramEdge& e) {
     polar = {c.length, c.angle};
   }
   dual.length = polar.s;
-  const FirstForm I = first_form(rays.surface().jet(rays.site(e.left)));
+  const SurfaceJet j = rays.surface().jet(rays.site(e.left));
   TraceOptions options;
   options.stop_at_domain = false;
-  for (const auto& state : sample_geodesic(rays.surface(), rays.site(e.left), direction_at_angle(I, polar.t), polar.s,
+  for (const auto& state : sample_geodesic(rays.surface(), rays.site(e.left), direction_at_angle(j, polar.t), polar.s,
                                            kPathPieces, options)) {
     dual.path_uv.push_back(state.p);
     dual.path.push_back(rays.surface().position(state.p));

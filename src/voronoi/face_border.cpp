@@ -180,7 +180,7 @@ std::optional<FaceBorder::Crossing> FaceBorder::first_crossing(Uv a0, Uv b0, dou
 }
 
 std::optional<BorderPlace> FaceBorder::nearest(Uv p0) const {
-  const FirstForm I = first_form(domain_.surface().jet(p0));
+  const SurfaceJet j = domain_.surface().jet(p0);
   std::optional<BorderPlace> best;
   double least = kInf;
   for (UvVec shift : shifts_) {
@@ -188,9 +188,9 @@ std::optional<BorderPlace> FaceBorder::nearest(Uv p0) const {
     for (int c = 0; c < cycle_count(); ++c) {
       for (int k = 0; k < segment_count(c); ++k) {
         const Segment& s = cycles_[c][k];
-        const UvVec d = s.b - s.a;
-        const double f = std::clamp(dot(I, p - s.a, d) / dot(I, d, d), 0.0, 1.0);
-        const double off = norm(I, p - lerp(s.a, s.b, f));
+        const Xyz d = push_forward(j, s.b - s.a);
+        const double f = std::clamp(push_forward(j, p - s.a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+        const double off = norm(j, p - lerp(s.a, s.b, f));
         if (off < least) least = off, best = {c, k + f};
       }
     }

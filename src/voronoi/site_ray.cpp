@@ -97,7 +97,7 @@ std::optional<SiteRay> SiteRays::roughly_to(int site, Uv m, std::optional<Polar>
 
 std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, const Accuracy& accuracy) const {
   const Xyz target = surface_.position(m);
-  const FirstForm at_site = first_form(surface_.jet(sites_[site]));
+  const SurfaceJet at_site = surface_.jet(sites_[site]);
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostShots && aim.s > 0.0; ++i) {
     TraceOptions options;

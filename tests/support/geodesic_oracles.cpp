@@ -33,7 +33,7 @@ double great_circle_distance(const Xyz& a, const Xyz& b, double R) {
 double clairaut(const SurfaceJet& j, UvVec d) { return Xyz::UnitZ().cross(j.S).dot(push_forward(j, d).normalized()); }
 
 GeodesicState fine_steps(const Surface& surface, Uv start, UvVec direction, double length, int steps) {
-  const double speed = norm(first_form(surface.jet(start)), direction), h = length / steps;
+  const double speed = norm(surface.jet(start), direction), h = length / steps;
   Vector6 x;
   x << start.u, start.v, direction.u / speed, direction.v / speed, 0.0, 1.0;
   for (int i = 0; i < steps; ++i) {
@@ -46,7 +46,7 @@ GeodesicState fine_steps(const Surface& surface, Uv start, UvVec direction, doub
   return {{x[0], x[1]}, {x[2], x[3]}, x[4], x[5]};
 }
 
-UvVec heading(const Surface& surface, Uv p, double t) { return direction_at_angle(first_form(surface.jet(p)), t); }
+UvVec heading(const Surface& surface, Uv p, double t) { return direction_at_angle(surface.jet(p), t); }
 
 double gap(const Surface& surface, Uv a, Uv b) { return (surface.position(a) - surface.position(b)).norm(); }
 

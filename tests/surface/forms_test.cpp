@@ -117,7 +117,7 @@ TEST(Christoffel, FollowsFromTheMetricAlone) {
     const Xyz du = testing::central_difference([&](double u) { return metric(u, p.v); }, p.u, h);
     const Xyz dv = testing::central_difference([&](double v) { return metric(p.u, v); }, p.v, h);
     const FirstForm I = first_form(spline.jet(p));
-    const double W2 = I.W2();
+    const double W2 = I.E * I.G - I.F * I.F;
     const Christoffel c = christoffel(spline.jet(p));
     const double scale = 1e-7 * (1.0 + std::abs(c.u_uu) + std::abs(c.u_vv) + std::abs(c.v_uu) + std::abs(c.v_vv));
     EXPECT_NEAR(c.u_uu, (I.G * du[0] - 2 * I.F * du[1] + I.F * dv[0]) / (2 * W2), scale);
@@ -134,14 +134,35 @@ TEST(DirectionAtAngle, IsUnitAndInvertsAngleOfDirection) {
   std::mt19937 random(8);
   for (int i = 0; i < 200; ++i) {
     const SurfaceJet j = wave.jet(random_point(random, wave.domain()));
-    const FirstForm I = first_form(j);
     const double t = uniform(random, -kPi, kPi);
-    const UvVec d = direction_at_angle(I, t);
-    EXPECT_NEAR(norm(I, d), 1.0, 1e-14);
-    EXPECT_NEAR(angle_of_direction(I, 3.0 * d), t, 1e-14);
+    const UvVec d = direction_at_angle(j, t);
+    EXPECT_NEAR(norm(j, d), 1.0, 1e-14);
+    EXPECT_NEAR(angle_of_direction(j, 3.0 * d), t, 1e-14);
     // In space: cos t e1 + sin t e2 with e1 along Su and e2 = n x e1.
     const Xyz e1 = j.Su.normalized(), e2 = unit_normal(j).cross(e1);
     EXPECT_NEAR((push_forward(j, d) - std::cos(t) * e1 - std::sin(t) * e2).norm(), 0.0, 1e-14);
+  }
+}
+
+// A plane whose parameter lines meet at an angle of 1/k: (x, y) = (u + v, v/k), turned about in space. The truth is
+// x' = cos t, y' = sin t. The parameters themselves carry an error of k roundings, and no more than that is allowed.
+TEST(DirectionAtAngle, KeepsItsDigitsWhereParameterLinesAreSheared) {
+  std::mt19937 random(10);
+  for (const double k : {1e3, 1e6}) {
+    const double allowed = 4.0 * k * std::numeric_limits<double>::epsilon();
+    for (int i = 0; i < 1000; ++i) {
+      const Eigen::Quaterniond about =
+          Eigen::Quaterniond(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1), 1.0).normalized();
+      const Xyz x = about * Xyz::UnitX(), y = about * Xyz::UnitY(), zero = Xyz::Zero();
+      const SurfaceJet j{zero, x, x + y / k, zero, zero, zero};
+      const double t = uniform(random, -kPi, kPi);
+      const UvVec d = direction_at_angle(j, t);
+      ASSERT_NEAR((push_forward(j, d) - std::cos(t) * x - std::sin(t) * y).norm(), 0.0, allowed);
+      const UvVec exact{std::cos(t) - k * std::sin(t), k * std::sin(t)};
+      ASSERT_NEAR(norm(j, exact), 1.0, allowed);
+      ASSERT_NEAR(std::remainder(angle_of_direction(j, exact) - t, 2.0 * kPi), 0.0, allowed);
+      ASSERT_NEAR(k * area_ratio(j), 1.0, allowed);
+    }
   }
 }
 
