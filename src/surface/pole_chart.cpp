@@ -3,6 +3,12 @@
 #include <cmath>
 
 namespace geovor {
+namespace {
+
+// A parameter that has been computed may lie so far beyond the side.
+constexpr double kRounding = 1e-12;
+
+}  // namespace
 
 SurfaceJet PoleChart::jet(Uv ab) const {
   const HeightJet h = height(ab);
@@ -11,7 +17,8 @@ SurfaceJet PoleChart::jet(Uv ab) const {
 }
 
 bool PoleChart::holds(Uv p) const {
-  if (!(std::abs(side_.depth(p)) <= reach_)) return false;
+  const double depth = side_.depth(p);
+  if (!(depth >= -kRounding * reach_ && depth <= reach_)) return false;
   const Uv ab = from_base(p);
   return std::hypot(ab.u, ab.v) <= radius_;
 }

@@ -8,7 +8,8 @@
 
 namespace geovor {
 
-/// A side of a surface's domain: v = at (along_u) or u = at, at the low or the high end of the interval.
+/// A side of a surface's domain: v = at (along_u) or u = at, at the low or the high end of the interval. A line inside
+/// the domain that is one point (a whole circle revolved about its diameter) is two sides, `low` of the part above it.
 struct PoleSide {
   bool along_u = true;
   double at = 0.0;
@@ -54,7 +55,8 @@ class PoleChart : public Surface {
   virtual Uv to_base(Uv ab) const = 0;
   /// The inverse; relatively exact down to the pole. Also for a p up to some way outside the disk.
   virtual Uv from_base(Uv p) const = 0;
-  /// Whether p, a point of the base's domain, lies in the disk of the chart; cheap for the points far away.
+  /// Whether p, a point of the base's domain on this side of the pole, lies in the disk of the chart; cheap for the
+  /// points far away. On the pole itself it is true for both charts of a line inside the domain.
   bool holds(Uv p) const;
 
   /// The unit direction in space in which the base's lines "depth = const" run through p (that of Su where the side is

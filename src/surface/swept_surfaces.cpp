@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "surface/revolution_cap.h"
 
 namespace geovor {
 namespace {
@@ -55,6 +56,8 @@ Span RevolutionSurface::span(Uv p, UvVec towards) const {
 SurfaceJet RevolutionSurface::jet(Uv p, const Span& span) const {
   return turn(p.u, meridian_->jet(p.v, CurvePiece{span.v, span.box.v}));
 }
+
+PoleCharts RevolutionSurface::make_poles() const { return revolution_poles(*this); }
 
 ExtrusionSurface::ExtrusionSurface(Curve3Ptr profile, const Xyz& direction)
     : profile_(std::move(profile)), direction_(direction) {

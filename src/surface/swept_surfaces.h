@@ -27,6 +27,7 @@ class RevolutionSurface final : public Surface {
   const Xyz& axis_direction() const { return axis_; }  ///< unit
 
  private:
+  PoleCharts make_poles() const override;
   SurfaceJet turn(double angle, const CurveJet<3>& c) const;
   Curve3Ptr meridian_;
   Xyz origin_, axis_;

@@ -10,8 +10,11 @@
 
 #include "support/differences.h"
 #include "surface/analytic_surfaces.h"
+#include "surface/bspline_curve.h"
+#include "surface/elementary_curves.h"
 #include "surface/elementary_surfaces.h"
 #include "surface/forms.h"
+#include "surface/swept_surfaces.h"
 #include "surface/tangent_frame.h"
 
 namespace geovor {
@@ -109,6 +112,46 @@ TEST(PoleChart, HoldsBothPolesOfASphereAnywhereInSpace) {
     ASSERT_EQ(surface.poles().size(), 2u);
     for (const auto& chart : surface.poles()) expect_same_surface(surface, *chart, 10.0, 1e-15);
   }
+}
+
+/// A whole ellipse turned about its axis: an ellipsoid with the semi-axes a, a, c.
+TEST(PoleChart, IsExactWhereAMeridianRunsThroughTheAxis) {
+  const double a = 1.5, c = 0.7;
+  const ConicFrame<3> conic{{5.0, 0.0, 2.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  const RevolutionSurface surface(std::make_shared<Ellipse<3>>(conic, a, c), {5.0, 0.0, -1.0}, {0.0, 0.0, 1.0});
+  ASSERT_EQ(surface.poles().size(), 4u);
+  for (const auto& chart : surface.poles()) {
+    expect_same_surface(surface, *chart, 5.0, 1e-15);
+    const double sign = chart->jet({0.0, 0.0}).Suu.dot(chart->frame().z) < 0.0 ? 1.0 : -1.0;
+    expect_cap(*chart, a, a, sign * c, 1e-13);
+  }
+}
+
+/// A parabola z = r^2 / (4 f) as a polynomial Bezier arc, both ways round: h = r^2 / (4 f) exactly.
+TEST(PoleChart, OfARevolvedParabolaIsTheParaboloid) {
+  const std::vector<Xyz> arc{{0.0, 0.0, 3.0}, {0.5, 0.0, 3.0}, {1.0, 0.0, 3.5}};  // (t, 0, 3 + t^2 / 2)
+  for (const bool reversed : {false, true}) {
+    const std::vector<Xyz> poles = reversed ? std::vector<Xyz>(arc.rbegin(), arc.rend()) : arc;
+    const auto meridian = std::make_shared<BSplineCurve<3>>(KnotVector({2.0, 5.0}, {3, 3}, 2), poles);
+    const RevolutionSurface surface(meridian, {0.0, 0.0, 0.0}, {0.0, 0.0, 2.0});
+    ASSERT_EQ(surface.poles().size(), 1u);
+    const PoleChart& chart = *surface.poles().front();
+    expect_same_surface(surface, chart, 3.0, 1e-15);
+    for_places(chart, [&](Uv ab) {
+      const SurfaceJet j = chart.jet(ab);
+      EXPECT_NEAR(j.Suu.z(), 1.0, 3e-14);
+      EXPECT_NEAR(j.Suv.z(), 0.0, 3e-14);
+      EXPECT_NEAR(j.Svv.z(), 1.0, 3e-14);
+      EXPECT_NEAR(j.Su.z(), ab.u, 3e-14 * chart.radius());
+      EXPECT_NEAR(j.S.z() - 3.0, 0.5 * (ab.u * ab.u + ab.v * ab.v), 1e-15);
+    });
+  }
+}
+
+TEST(PoleChart, IsNotMadeForAConesTip) {
+  const auto ruling = std::make_shared<BSplineCurve<3>>(KnotVector({0.0, 1.0}, {2, 2}, 1),
+                                                        std::vector<Xyz>{{0.0, 0.0, 0.0}, {1.0, 0.0, 1.0}});
+  EXPECT_TRUE(RevolutionSurface(ruling, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}).poles().empty());
 }
 
 TEST(PoleChart, DoesNotTakeTheOtherPoleForItsOwn) {
