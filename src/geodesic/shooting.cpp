@@ -15,9 +15,9 @@ constexpr double kLongest = 2.0;
 
 // While the shot is still off, the integrator's error only has to stay below what Newton's step will leave.
 constexpr double kLoosest = 1e-5;
-constexpr double kBelowResidual = 0.03;
-constexpr double kNearlyThere = 1e-7;  // from here on the finest tolerance at once costs less than one more shot
-constexpr double kTrueError = 0.1;     // of the integrator, in parts of its tolerance: no step lands closer than that
+constexpr double kNewton = 0.1;  // the miss after a step, in parts of the miss before, squared
+constexpr double kBelowResidual = 0.3;
+constexpr double kTrueError = 2.0;  // of a loose shot, in parts of the tolerance that it met
 
 // Residuals differ by this many tolerances without telling anything.
 constexpr double kNoise = 2.0;
@@ -26,13 +26,17 @@ constexpr double kNoise = 2.0;
 constexpr double kIntegratorShare = 0.5;
 
 struct Shot {
+  Polar aim;
   GeodesicState state;
   TraceStatus status;
   Xyz tangent, across;      // unit vectors at the end, across = n x tangent
   double a = 0.0, b = 0.0;  // what is missing to the target, along the two
   double residual = 0.0;
-  double tolerance = 0.0;  // that the integrator met, at least the one asked for
+  double asked = 0.0;      // the integrator's tolerance
+  double tolerance = 0.0;  // the one that it met, which may be far finer
   UvBox reach;
+  double missing() const { return residual / aim.s; }
+  double error() const { return kTrueError * tolerance; }
 };
 
 Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance, int max_steps, int& evaluations) {
@@ -43,9 +47,11 @@ Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance,
   const UvVec d = tangent_components(ends.at_from, tangent_at_angle(ends.at_from, aim.t));
   GeodesicIntegrator path(surface, ends.from, d, aim.s, options);
   Shot shot;
+  shot.aim = aim;
   shot.status = path.advance(aim.s);
   shot.state = path.state();
   shot.reach = path.reach();
+  shot.asked = tolerance;
   shot.tolerance = std::min(path.tolerance_met(), tolerance);
   const SurfaceJet j = path.jet();
   evaluations += path.evaluations() + 1;
@@ -72,15 +78,55 @@ Polar limited(Polar step, double s) {
   return {k * step.s, k * step.t};
 }
 
-// How small the residual has to be for the last step to need no shot of its own: what the step leaves is of second
-// order (third in the length), and y changes with the angle by the third power of the length in curvature radii.
-double correctable(const Shot& shot, const Ends& ends, double s, double tolerance) {
-  constexpr double kOfTolerance = 0.1;
-  constexpr double kErrorOfY = 1e-11;
-  const double scale = std::min(s, std::abs(shot.state.y) / std::max(1.0, std::abs(shot.state.dy)));
-  const double bend = ends.curvature * s;
-  const double wanted = std::min(std::sqrt(kOfTolerance * tolerance * scale / s), kErrorOfY / (bend * bend * bend));
-  return s * std::max(wanted, kNoise * tolerance);
+// What the last step may leave undone, so that it needs no shot of its own. All relative to the length.
+struct Demand {
+  double least;   // no shot is asked to land nearer
+  double place;   // residual from which the step, of second order, leaves a part of the tolerance
+  double y;       // error allowed in y
+  double y_turn;  // how much y changes with the angle: by the third power of the length in curvature radii
+  double finest;  // the integrator's tolerance of the last shot
+
+  Demand(const Shot& shot, const Ends& ends, double tolerance) : finest(kIntegratorShare * tolerance) {
+    constexpr double kOfTolerance = 0.1, kErrorsOfY = 1.0;
+    const double s = shot.aim.s, bend = ends.curvature * s;
+    const double scale = std::min(s, std::abs(shot.state.y) / std::max(1.0, std::abs(shot.state.dy)));
+    place = std::sqrt(kOfTolerance * tolerance * scale / s);
+    least = kNoise * tolerance;
+    y = kErrorsOfY * tolerance;
+    y_turn = bend * bend * bend;
+  }
+  // `slope_error`: of the slope by which y is corrected, see YSlope.
+  double miss_allowed(double slope_error) const { return std::max(least, std::min(place, y / (y_turn * slope_error))); }
+};
+
+// dy/dt, from the two shots that tell it best; its error is in parts of what Demand takes for the slope itself.
+struct YSlope {
+  double value = 0.0, error = 1.0;
+
+  static double error_between(double errors, double stretch, double turn) {
+    return (errors + stretch * stretch) / std::abs(turn) + std::abs(turn);
+  }
+  void learn(const Shot& before, const Shot& shot) {
+    const Polar step{shot.aim.s - before.aim.s, shot.aim.t - before.aim.t};
+    const double error_here = error_between(before.error() + shot.error(), step.s / shot.aim.s, step.t);
+    if (!(error_here < error)) return;
+    error = error_here;
+    value = (shot.state.y - before.state.y - 0.5 * (before.state.dy + shot.state.dy) * step.s) / step.t;
+  }
+};
+
+// Of the next shot: the finest as soon as that will be the last one. Before, as loose as the miss of the next shot
+// allows, and such that the one after it can be the last.
+double next_tolerance(const Shot& shot, Polar step, const Demand& demand, double slope_error) {
+  const double loosest = std::max(kLoosest, demand.finest);
+  if (shot.tolerance <= demand.finest) return shot.asked;  // which will meet the finest once more
+  const double rest = kNewton * shot.missing() * shot.missing();
+  const double allowed =
+      demand.miss_allowed(std::min(slope_error, YSlope::error_between(shot.error(), step.s / shot.aim.s, step.t)));
+  if (rest + shot.error() <= allowed) return demand.finest;
+  constexpr double kMargin = 0.5;
+  const double wanted = rest > allowed ? kBelowResidual * rest : kMargin * allowed / kTrueError;
+  return std::clamp(wanted, demand.finest, loosest);
 }
 
 bool leaves(const Surface& surface, const UvBox& reach, const Ends& ends, double length) {
@@ -95,8 +141,8 @@ bool leaves(const Surface& surface, const UvBox& reach, const Ends& ends, double
 }
 
 // The connection that ends at the target: the shot, moved by the step that it lacks.
-Connection corrected(const Surface& surface, const Ends& ends, Polar aim, const Shot& shot) {
-  const Polar step = newton_step(shot);
+Connection corrected(const Surface& surface, const Ends& ends, const Shot& shot, double y_slope) {
+  const Polar step = newton_step(shot), aim = shot.aim;
   Connection c;
   c.status = ConnectStatus::Converged;
   c.length = aim.s + step.s;
@@ -104,7 +150,7 @@ Connection corrected(const Surface& surface, const Ends& ends, Polar aim, const 
   c.start_direction = tangent_components(ends.at_from, tangent_at_angle(ends.at_from, c.angle));
   const UvVec end = tangent_components(ends.at_to, shot.tangent + step.t * shot.state.dy * shot.across);
   c.end_direction = (1.0 / push_forward(ends.at_to, end).norm()) * end;
-  c.y = shot.state.y + shot.a * shot.state.dy;
+  c.y = shot.state.y + shot.a * shot.state.dy + y_slope * step.t;
   c.residual = shot.residual * shot.residual / c.length;
   c.leaves_domain = leaves(surface, shot.reach, ends, c.length);
   return c;
@@ -130,9 +176,10 @@ double angle_of_tangent(const SurfaceJet& j, const Xyz& w) {
 Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const ConnectOptions& options) {
   Connection last;
   Polar aim = guess, step;
-  const double finest = kIntegratorShare * options.tolerance;
-  double tolerance = std::max(kLoosest, finest);
+  double tolerance = std::max(kLoosest, kIntegratorShare * options.tolerance);
   double best = std::numeric_limits<double>::infinity();
+  std::optional<Shot> before;
+  YSlope y_slope;
   int evaluations = 0;
   for (int i = 1; i <= options.max_iterations; ++i) {
     const Shot shot = fire(surface, ends, aim, tolerance, options.max_steps, evaluations);
@@ -141,18 +188,19 @@ Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const Co
     last.residual = shot.residual;
     last.iterations = i;
     if (shot.status == TraceStatus::DegenerateMetric) last.status = ConnectStatus::DegenerateMetric;
-    if (shot.tolerance <= finest && shot.residual <= correctable(shot, ends, aim.s, options.tolerance)) {
-      last = corrected(surface, ends, aim, shot);
+    if (before) y_slope.learn(*before, shot);
+    const Demand demand(shot, ends, options.tolerance);
+    if (shot.tolerance <= demand.finest && shot.missing() <= demand.miss_allowed(y_slope.error)) {
+      last = corrected(surface, ends, shot, y_slope.value);
       last.iterations = i;
       break;
     }
     // A residual is known to the integrator's tolerance only: below that it need not fall.
     if (shot.status == TraceStatus::Converged && shot.residual < best) {
-      best = std::max(shot.residual, kNoise * shot.tolerance * aim.s);
+      best = std::max(shot.residual, kNoise * shot.error() * aim.s);
       step = limited(newton_step(shot), aim.s);
-      const double relative = shot.residual / aim.s;
-      const double wanted = kBelowResidual * std::max(relative * relative, kTrueError * shot.tolerance);
-      tolerance = wanted < kNearlyThere ? finest : std::clamp(wanted, finest, std::max(kLoosest, finest));
+      tolerance = next_tolerance(shot, step, demand, y_slope.error);
+      before = shot;
     } else {
       aim = {aim.s - step.s, aim.t - step.t};
       step = {0.5 * step.s, 0.5 * step.t};
