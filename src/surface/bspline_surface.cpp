@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "surface/bspline_basis.h"
+#include "surface/pole_chart.h"
+#include "surface/spline_cap.h"
 
 namespace geovor {
 namespace {
@@ -61,12 +63,12 @@ SurfaceJet project_homogeneous(const double (&H)[6][4], const Xyz& centre) {
 // Poles are kept relative to the middle of their box: a part modelled far from the origin would otherwise lose digits
 // of its derivatives in sums of large, nearly equal terms.
 BSplineSurface::BSplineSurface(KnotVector u_knots, KnotVector v_knots, const std::vector<Xyz>& poles,
-                               const std::vector<double>& weights)
+                               const std::vector<double>& weights, const std::optional<Xyz>& centre)
     : u_knots_(std::move(u_knots)), v_knots_(std::move(v_knots)) {
   const int nu = u_knots_.pole_count(), nv = v_knots_.pole_count();
   check(static_cast<size_t>(nu) * nv, poles, weights);
   rational_ = differ(weights);
-  centre_ = centre_of(poles);
+  centre_ = centre ? *centre : centre_of(poles);
   const int width = rational_ ? 4 : 3;
   row_length_ = v_knots_.unrolled_count() * width;
   poles_.reserve(static_cast<size_t>(u_knots_.unrolled_count()) * row_length_);
@@ -167,6 +169,17 @@ Xyz BSplineSurface::locate(int u_span, int v_span, double u, double v) const {
   if constexpr (Width == 4) return centre_ + local / H[3];
   return centre_ + local;
 }
+
+Xyz BSplineSurface::pole(int i, int j) const {
+  const double* q = &poles_[static_cast<size_t>(i) * row_length_ + j * (rational_ ? 4 : 3)];
+  return rational_ ? Xyz(q[0] / q[3], q[1] / q[3], q[2] / q[3]) : Xyz(q[0], q[1], q[2]);
+}
+
+double BSplineSurface::weight(int i, int j) const {
+  return rational_ ? poles_[static_cast<size_t>(i) * row_length_ + j * 4 + 3] : 1.0;
+}
+
+PoleCharts BSplineSurface::make_poles() const { return spline_poles(*this); }
 
 std::optional<double> BSplineSurface::u_period() const {
   return u_knots_.periodic() ? std::optional(u_knots_.period()) : std::nullopt;

@@ -13,8 +13,10 @@ class BSplineSurface final : public Surface {
   /// `poles` run along v first: pole (i, j) is poles[i * v_knots.pole_count() + j]; `weights` likewise, empty for a
   /// polynomial surface. Equal weights are dropped. Throws Error(FaceRejected) if the counts do not fit the knots, a
   /// coordinate is not finite or a weight is not positive.
+  /// Sums run over the poles relative to `centre`, the middle of their box unless given: there the surface keeps its
+  /// relative accuracy.
   BSplineSurface(KnotVector u_knots, KnotVector v_knots, const std::vector<Xyz>& poles,
-                 const std::vector<double>& weights = {});
+                 const std::vector<double>& weights = {}, const std::optional<Xyz>& centre = std::nullopt);
 
   SurfaceKind kind() const override { return SurfaceKind::BSpline; }
   UvBox domain() const override { return {u_knots_.domain(), v_knots_.domain()}; }
@@ -33,6 +35,10 @@ class BSplineSurface final : public Surface {
   const KnotVector& u_knots() const { return u_knots_; }
   const KnotVector& v_knots() const { return v_knots_; }
   bool rational() const { return rational_; }
+  /// The pole (i, j) relative to centre(), and its weight. REQUIRES: i < u_knots().pole_count(), j likewise
+  Xyz pole(int i, int j) const;
+  double weight(int i, int j) const;
+  const Xyz& centre() const { return centre_; }
 
   /// Distinct knots strictly inside the domain: the lines across which the surface is not analytic.
   struct KnotLines {
@@ -41,6 +47,7 @@ class BSplineSurface final : public Surface {
   KnotLines knot_lines() const;
 
  private:
+  PoleCharts make_poles() const override;
   // One span's polynomial, by degree (0: any) and number of coordinates a pole.
   template <int Degree, int Width>
   SurfaceJet evaluate(int u_span, int v_span, double u, double v) const;

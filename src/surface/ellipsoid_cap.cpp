@@ -42,9 +42,6 @@ class EllipsoidCap final : public PoleChart {
     return (-a_ * std::sin(p.u) * frame().x + (mirrored_ ? -y : y) * frame().y).normalized();
   }
 
- private:
-  static constexpr double kBeyond = 1.01;  // the reach is a bound, not the depth to the last digit
-
   HeightJet height(Uv ab) const override {
     const double x = ab.u / (a_ * a_), y = ab.v / (b_ * b_);
     const double q = ab.u * x + ab.v * y, root = std::sqrt(1.0 - q), k = c_ / root, k3 = k / (root * root);
@@ -52,6 +49,9 @@ class EllipsoidCap final : public PoleChart {
     return {-c_ * q / (1.0 + root),      -k * x,      -k * y,
             -k / (a_ * a_) - k3 * x * x, -k3 * x * y, -k / (b_ * b_) - k3 * y * y};
   }
+
+ private:
+  static constexpr double kBeyond = 1.01;  // the reach is a bound, not the depth to the last digit
 
   double a_, b_, c_;  // c < 0: the cap bends towards its normal
   bool mirrored_;     // e2 = -y

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "surface/derived_caps.h"
 
 namespace geovor {
 namespace {
@@ -123,5 +124,7 @@ int OffsetSurface::continuity() const {
   const int order = basis_->continuity();
   return order == kSmooth ? kSmooth : std::max(order - 1, 0);
 }
+
+PoleCharts OffsetSurface::make_poles() const { return offset_poles(*this); }
 
 }  // namespace geovor

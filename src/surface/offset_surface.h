@@ -30,6 +30,7 @@ class OffsetSurface final : public Surface {
   double distance() const { return distance_; }
 
  private:
+  PoleCharts make_poles() const override;
   Uv off_the_pole(Uv p) const;
 
   SurfacePtr basis_;

@@ -57,11 +57,14 @@ class PoleChart : public Surface {
   virtual Uv from_base(Uv p) const = 0;
   /// Whether p, a point of the base's domain on this side of the pole, lies in the disk of the chart; cheap for the
   /// points far away. On the pole itself it is true for both charts of a line inside the domain.
-  bool holds(Uv p) const;
+  virtual bool holds(Uv p) const;
 
   /// The unit direction in space in which the base's lines "depth = const" run through p (that of Su where the side is
   /// v = const), exact down to the pole, where it is the limit along the other parameter line.
   virtual Xyz side_direction(Uv p) const = 0;
+
+  /// h and its derivatives.
+  virtual HeightJet height(Uv ab) const = 0;
 
  protected:
   /// `reach`: a depth that no point of the disk exceeds, small enough for from_base to be one-to-one up to it.
@@ -69,8 +72,6 @@ class PoleChart : public Surface {
       : frame_(frame), side_(side), radius_(radius), reach_(reach) {}
 
  private:
-  virtual HeightJet height(Uv ab) const = 0;
-
   Frame frame_;
   PoleSide side_;
   double radius_, reach_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "surface/derived_caps.h"
+
 namespace geovor {
 namespace {
 
@@ -76,7 +78,7 @@ Interval image(const Map& map, const Interval& x) {
 
 double old_of(const ParameterMap& map, double t) {
   if (!std::isinf(t)) return map.jet(t).x;
-  return map.jet(0.0).d1 > 0.0 ? t : -t;
+  return map.descends() ? -t : t;
 }
 
 std::optional<double> scaled(const std::optional<double>& period, const ParameterMap& map) {
@@ -169,5 +171,7 @@ SurfaceJet Reparameterized::jet(Uv p, const Span& span) const {
   const ParameterMap::Jet u = u_map_->jet(p.u), v = v_map_->jet(p.v);
   return chain(base_->jet({u.x, v.x}, {span.u, span.v, box_to_base(span.box)}), u, v);
 }
+
+PoleCharts Reparameterized::make_poles() const { return reparameterized_poles(*this); }
 
 }  // namespace geovor

@@ -20,6 +20,7 @@ class ParameterMap {
   virtual double inverse(double x) const = 0;
   /// Whether a period of the old parameter is a period (of other length) of the new one.
   virtual bool affine() const { return false; }
+  bool descends() const { return jet(0.5).d1 < 0.0; }
 };
 using ParameterMapPtr = std::shared_ptr<const ParameterMap>;
 
@@ -53,8 +54,13 @@ class Reparameterized final : public Surface {
   Uv to_base(Uv p) const;    ///< parameters of the same point on the base surface
   Uv from_base(Uv p) const;  ///< the inverse of to_base
   const Surface& base() const { return *base_; }
+  bool swapped() const { return swap_; }
+  /// Whether the base's parameter falls as the new u (v) ascends.
+  bool u_turned() const { return (swap_ ? v_map_ : u_map_)->descends(); }
+  bool v_turned() const { return (swap_ ? u_map_ : v_map_)->descends(); }
 
  private:
+  PoleCharts make_poles() const override;
   SurfaceJet chain(const SurfaceJet& b, const ParameterMap::Jet& u, const ParameterMap::Jet& v) const;
   UvBox box_from_base(const UvBox& box) const;
   UvBox box_to_base(const UvBox& box) const;

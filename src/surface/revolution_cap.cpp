@@ -170,7 +170,6 @@ class RevolutionCap final : public PoleChart {
     return turn_sign_ * (std::cos(angle) * frame().y - std::sin(angle) * frame().x);
   }
 
- private:
   HeightJet height(Uv ab) const override {
     const double r = std::hypot(ab.u, ab.v);
     const double c = r > 0.0 ? ab.u / r : 1.0, s = r > 0.0 ? ab.v / r : 0.0;
@@ -183,6 +182,7 @@ class RevolutionCap final : public PoleChart {
             second * s * s + slope * c * c};
   }
 
+ private:
   ProfileSeries series_;
   double turn_sign_;
 };

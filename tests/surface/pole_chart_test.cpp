@@ -11,9 +11,12 @@
 #include "support/differences.h"
 #include "surface/analytic_surfaces.h"
 #include "surface/bspline_curve.h"
+#include "surface/bspline_surface.h"
 #include "surface/elementary_curves.h"
 #include "surface/elementary_surfaces.h"
 #include "surface/forms.h"
+#include "surface/offset_surface.h"
+#include "surface/reparameterize.h"
 #include "surface/swept_surfaces.h"
 #include "surface/tangent_frame.h"
 
@@ -146,6 +149,166 @@ TEST(PoleChart, OfARevolvedParabolaIsTheParaboloid) {
       EXPECT_NEAR(j.S.z() - 3.0, 0.5 * (ab.u * ab.u + ab.v * ab.v), 1e-15);
     });
   }
+}
+
+/// The ellipsoid with the semi-axes a, b, c as a rational biquadratic, `quarters` of a turn in u; its poles are the
+/// rows v = 0 and v = last, moved by `centre`. `upper`: the half z >= 0 only.
+struct SplineEllipsoid {
+  double a = 1.0, b = 1.0, c = 1.0;
+  int quarters = 4;
+  bool upper = false, periodic = false, swapped = false;
+  Xyz centre = Xyz::Zero();
+
+  BSplineSurface surface() const {
+    const double kHalf = std::numbers::sqrt2 / 2.0;
+    const double around[9][3] = {{1, 0, 1},       {1, 1, kHalf}, {0, 1, 1},      {-1, 1, kHalf}, {-1, 0, 1},
+                                 {-1, -1, kHalf}, {0, -1, 1},    {1, -1, kHalf}, {1, 0, 1}};
+    const double up[5][3] = {{0, -1, 1}, {1, -1, kHalf}, {1, 0, 1}, {1, 1, kHalf}, {0, 1, 1}};
+    std::vector<double> knots;
+    std::vector<int> multiplicities;
+    for (int i = 0; i <= quarters; ++i) {
+      knots.push_back(i + 1.0);
+      multiplicities.push_back(periodic || (i > 0 && i < quarters) ? 2 : 3);
+    }
+    const KnotVector u(knots, multiplicities, 2, periodic);
+    const KnotVector v = upper ? KnotVector({0.25, 1.25}, {3, 3}, 2) : KnotVector({-1.0, 0.0, 1.0}, {3, 2, 3}, 2);
+    const int nu = u.pole_count(), nv = v.pole_count();
+    std::vector<Xyz> poles;
+    std::vector<double> weights;
+    auto add = [&](int i, int j) {
+      const double *x = around[i], *z = up[upper ? j + 2 : j];
+      poles.push_back(centre + Xyz(a * z[0] * x[0], b * z[0] * x[1], c * z[1]));
+      weights.push_back(x[2] * z[2]);
+    };
+    if (swapped) {
+      for (int j = 0; j < nv; ++j)
+        for (int i = 0; i < nu; ++i) add(i, j);
+      return {v, u, poles, weights};
+    }
+    for (int i = 0; i < nu; ++i)
+      for (int j = 0; j < nv; ++j) add(i, j);
+    return {u, v, poles, weights};
+  }
+};
+
+/// Jets of a chart against the cap's closed form, whatever the chart's own axes are: a, b, c along x, y, z.
+void expect_cap_in_space(const PoleChart& chart, const SplineEllipsoid& e, double bound, double from, double to) {
+  const Frame& f = chart.frame();
+  for (const double distance : kDistances)
+    for (int i = 0; i < 24; ++i) {
+      const double t = from + (to - from) * (i + 0.3) / 24, r = chart.radius() * distance;
+      const Xyz d = r * Xyz(std::cos(t), std::sin(t), 0.0);
+      const CapTruth truth(e.a, e.b, f.z.z() * (f.origin.z() > e.centre.z() ? e.c : -e.c), d.x(), d.y());
+      const SurfaceJet j = chart.jet({d.dot(f.x), d.dot(f.y)});
+      // The second derivatives as a form in space.
+      auto second = [&](const Xyz& p, const Xyz& q) {
+        const double pa = p.dot(f.x), pb = p.dot(f.y), qa = q.dot(f.x), qb = q.dot(f.y);
+        return f.z.dot(pa * qa * j.Suu + (pa * qb + pb * qa) * j.Suv + pb * qb * j.Svv);
+      };
+      const Xyz X = Xyz::UnitX(), Y = Xyz::UnitY();
+      const double slope_x = f.z.dot(f.x.x() * j.Su + f.y.x() * j.Sv),
+                   slope_y = f.z.dot(f.x.y() * j.Su + f.y.y() * j.Sv);
+      EXPECT_NEAR(second(X, X), double(truth.fuu), bound) << "distance " << distance << " direction " << t;
+      EXPECT_NEAR(second(X, Y), double(truth.fuv), bound) << "distance " << distance << " direction " << t;
+      EXPECT_NEAR(second(Y, Y), double(truth.fvv), bound) << "distance " << distance << " direction " << t;
+      EXPECT_NEAR(slope_x, double(truth.fu), bound * r);
+      EXPECT_NEAR(slope_y, double(truth.fv), bound * r);
+    }
+}
+
+TEST(PoleChart, OfARationalSplineIsTheEllipsoidsCap) {
+  for (const bool periodic : {false, true})
+    for (const bool swapped : {false, true}) {
+      SplineEllipsoid e{1.0, 0.8, 0.6, 4, false, periodic, swapped};
+      const BSplineSurface surface = e.surface();
+      ASSERT_EQ(surface.poles().size(), 2u);
+      for (const auto& chart : surface.poles()) {
+        expect_same_surface(surface, *chart, 2.0, 1e-15);
+        expect_cap_in_space(*chart, e, 3e-14, 0.0, 2.0 * kPi);
+      }
+    }
+}
+
+/// An octant: the pole is a corner of the patch, with a right angle.
+TEST(PoleChart, HoldsTheWedgeOfAnOctant) {
+  for (const bool swapped : {false, true}) {
+    SplineEllipsoid e{1.0, 0.8, 1.2, 1, true, false, swapped};
+    const BSplineSurface surface = e.surface();
+    ASSERT_EQ(surface.poles().size(), 1u);
+    expect_cap_in_space(*surface.poles().front(), e, 3e-14, 0.0, 0.5 * kPi);
+    // A little outside of the wedge the map goes on.
+    expect_cap_in_space(*surface.poles().front(), e, 3e-14, -0.1, 0.0);
+  }
+}
+
+/// Far from the origin coordinates are rounded more coarsely, but the surface that they describe is as smooth as ever.
+TEST(PoleChart, IsSmoothFarFromTheOrigin) {
+  SplineEllipsoid e{1.0, 0.8, 0.6};
+  e.centre = {1000.0, 2000.0, -500.0};
+  const BSplineSurface surface = e.surface();
+  ASSERT_EQ(surface.poles().size(), 2u);
+  for (const auto& chart : surface.poles()) expect_cap_in_space(*chart, e, 1e-11, 0.0, 2.0 * kPi);
+}
+
+/// A collapsed side with a common tangent plane, but curvatures that depend on the direction: no smooth pole.
+TEST(PoleChart, IsNotMadeWhereCurvatureDependsOnTheSideItIsSeenFrom) {
+  std::vector<Xyz> poles;
+  std::vector<int> multiplicities{3, 3};
+  for (int i = 0; i < 3; ++i) {
+    const Xyz out = i == 0 ? Xyz(1.0, 0.0, 0.0) : i == 1 ? Xyz(1.0, 1.0, 0.0) : Xyz(0.0, 1.0, 0.0);
+    for (int j = 0; j < 3; ++j) poles.push_back(0.5 * j * out + Xyz(0.0, 0.0, j == 2 ? 0.3 + 0.1 * i : 0.0));
+  }
+  const KnotVector knots({0.0, 1.0}, multiplicities, 2);
+  EXPECT_TRUE(BSplineSurface(knots, knots, poles).poles().empty());
+}
+
+TEST(PoleChart, FollowsAChangeOfParameters) {
+  const auto base = std::make_shared<Ellipsoid>(1.0, 0.8, 0.6);
+  const Interval v = base->domain().v;
+  for (const bool swap : {false, true})
+    for (const double scale : {0.5, -2.0})
+      for (const ParameterMapPtr& v_map :
+           {moebius_map(v, 3.0), cubic_map(v, 0.7), affine_map(1.0, 1.0), affine_map(-3.0, 1.0)}) {
+        const Reparameterized surface(base, affine_map(scale, 0.3), v_map, swap);
+        ASSERT_EQ(surface.poles().size(), 2u);
+        for (const auto& chart : surface.poles()) {
+          expect_same_surface(surface, *chart, 2.0, 2e-15);
+          for_places(*chart, [&](Uv ab) {
+            const Uv p = chart->to_base(ab);
+            const double r = std::hypot(ab.u, ab.v);
+            if (r < 1e-9) return;
+            const TangentFrame f = tangent_frame(surface, p);
+            EXPECT_LT((f.e1 - surface.jet(p).Su.normalized()).norm(), 1e-14 / r) << r;
+          });
+        }
+      }
+}
+
+/// An ellipsoid's cap moved by d: points S + d n, and curvatures k / (1 - d k) (do Carmo, section 3.5, exercise 11).
+TEST(PoleChart, OfAnOffsetHasThePrincipalCurvaturesMoved) {
+  const auto basis = std::make_shared<Ellipsoid>(1.0, 0.8, 0.6);
+  for (const double d : {0.3, -0.2}) {
+    const OffsetSurface surface(basis, d);
+    ASSERT_EQ(surface.poles().size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+      const PoleChart &chart = *surface.poles()[i], &inner = *basis->poles()[i];
+      for_places(chart, [&](Uv ab) {
+        const Uv p = chart.to_base(ab);
+        const SurfaceJet c = chart.jet(ab), b = inner.jet(inner.from_base(p));
+        EXPECT_LT((c.S - b.S - d * unit_normal(b)).norm(), 4e-16);
+        EXPECT_LT((unit_normal(c) - unit_normal(b)).norm(), 1e-15);
+        const Curvatures k = curvatures(c), k0 = curvatures(b);
+        EXPECT_NEAR(k.k1, k0.k1 / (1.0 - d * k0.k1), 1e-13);
+        EXPECT_NEAR(k.k2, k0.k2 / (1.0 - d * k0.k2), 1e-13);
+        const Uv back = chart.from_base(p);
+        EXPECT_LT(std::hypot(back.u - ab.u, back.v - ab.v), 4e-16);
+      });
+      const Xyz along = tangent_frame(surface, {0.4, 0.5 * kPi * (i == 0 ? -1 : 1)}).e1;
+      const Xyz near_by = tangent_frame(surface, {0.4, (0.5 * kPi - 0.01) * (i == 0 ? -1 : 1)}).e1;
+      EXPECT_LT((along - near_by).norm(), 0.05);
+    }
+  }
+  EXPECT_TRUE(OffsetSurface(std::make_shared<Sphere>(Frame{}, 1.0), -1.0).poles().empty());
 }
 
 TEST(PoleChart, IsNotMadeForAConesTip) {
