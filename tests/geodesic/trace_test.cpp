@@ -159,7 +159,7 @@ TEST(TraceGeodesic, NeedsFewEvaluations) {
   options.tolerance = 1e-13;
   options.stop_at_domain = false;
   const double lengths[] = {0.1, 0.5, 2.0};
-  const double budget[] = {25.0, 95.0, 390.0};
+  const double budget[] = {20.0, 90.0, 340.0};
   for (int k = 0; k < 3; ++k) {
     double evaluations = 0.0;
     for (int i = 0; i < 200; ++i) {
