@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "surface/bspline_kernels.h"
 #include "surface/knot_vector.h"
 #include "surface/surface.h"
 
@@ -34,11 +35,11 @@ class BSplineSurface final : public Surface {
 
   const KnotVector& u_knots() const { return u_knots_; }
   const KnotVector& v_knots() const { return v_knots_; }
-  bool rational() const { return rational_; }
+  bool rational() const { return net_.rational; }
   /// The pole (i, j) relative to centre(), and its weight. REQUIRES: i < u_knots().pole_count(), j likewise
   Xyz pole(int i, int j) const;
   double weight(int i, int j) const;
-  const Xyz& centre() const { return centre_; }
+  const Xyz& centre() const { return net_.centre; }
 
   /// Distinct knots strictly inside the domain: the lines across which the surface is not analytic.
   struct KnotLines {
@@ -48,25 +49,9 @@ class BSplineSurface final : public Surface {
 
  private:
   PoleCharts make_poles() const override;
-  // One span's polynomial, by degree (0: any) and number of coordinates a pole.
-  template <int Degree, int Width>
-  SurfaceJet evaluate(int u_span, int v_span, double u, double v) const;
-  template <int Degree, int Width>
-  Xyz locate(int u_span, int v_span, double u, double v) const;
-  struct Kernels {
-    SurfaceJet (BSplineSurface::*jet)(int u_span, int v_span, double u, double v) const;
-    Xyz (BSplineSurface::*position)(int u_span, int v_span, double u, double v) const;
-  };
-  template <int Degree>
-  Kernels kernels() const;
-  Kernels choose_kernels() const;
-
   KnotVector u_knots_, v_knots_;
-  bool rational_ = false;
-  Xyz centre_ = Xyz::Zero();   // poles are kept relative to it
-  std::vector<double> poles_;  // unrolled rows of (x, y, z) or (wx, wy, wz, w)
-  int row_length_ = 0;         // doubles a row of poles_ (one index i, all j)
-  Kernels kernels_;
+  BSplineNet net_;
+  BSplineKernels kernels_;
 };
 
 }  // namespace geovor
