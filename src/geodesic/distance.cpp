@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geodesic/closed_forms.h"
+#include "geodesic/fan.h"
 #include "geodesic/graph_path.h"
 #include "geodesic/relax.h"
 
@@ -29,10 +30,15 @@ bool same(const Connection& a, const Connection& b) {
          std::abs(std::remainder(a.angle - b.angle, 2.0 * M_PI)) <= kSameAngle;
 }
 
-void keep(std::vector<Connection>& all, const Connection& c) {
+void keep(DistanceResult& result, const Connection& c) {
+  result.evaluations += c.evaluations;
   if (c.status != ConnectStatus::Converged) return;
-  const bool known = std::any_of(all.begin(), all.end(), [&](const Connection& a) { return same(a, c); });
-  if (!known) all.push_back(c);
+  auto& all = result.candidates;
+  if (std::any_of(all.begin(), all.end(), [&](const Connection& a) { return same(a, c); })) return;
+  // Stays sorted by length, of equal ones the first found first.
+  all.insert(std::upper_bound(all.begin(), all.end(), c,
+                              [](const Connection& a, const Connection& b) { return a.length < b.length; }),
+             c);
 }
 
 // Of one parameter: the range that holds every path shorter than `length` between the two, if the parameter changes by
@@ -72,27 +78,16 @@ double straight_length(const Surface& surface, Uv from, Uv to) {
   return length;
 }
 
-void try_grid(const Surface& surface, Uv from, Uv to, const DistanceOptions& options, std::vector<Connection>& all) {
+void try_grid(const Surface& surface, Uv from, Uv to, const DistanceOptions& options, DistanceResult& result) {
   constexpr int kFewestCells = 4;
   const Ends ends(surface, from, to);
   double length = straight_length(surface, from, to);
-  for (const Connection& c : all) length = std::min(length, c.length);
+  for (const Connection& c : result.candidates) length = std::min(length, c.length);
   const UvBox box = search_box(surface, ends, length);
   if (!(box.u.length() > 0.0 && box.v.length() > 0.0 && box.u.length() < kInf && box.v.length() < kInf)) return;
   const auto path = graph_path(surface, from, to, box, std::max(options.grid, kFewestCells));
   if (path.empty()) return;
-  keep(all, connect_along(surface, Ends(surface, from, path.back()), path, options.connect));
-}
-
-void sort_by_length(std::vector<Connection>& all) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Connection& a, const Connection& b) { return a.length < b.length; });
-}
-
-// Lengths that differ by less are equal as far as two runs of the solver can tell.
-double tie(const DistanceOptions& options) {
-  constexpr double kErrors = 10.0;
-  return kErrors * options.connect.tolerance;
+  keep(result, connect_along(surface, Ends(surface, from, path.back()), path, options.connect));
 }
 
 std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Connection& c) {
@@ -101,59 +96,104 @@ std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Conn
   return DomainExit{path.end.p, path.length};
 }
 
-void conclude(const Surface& surface, Uv from, const DistanceOptions& options, DistanceResult& result) {
-  sort_by_length(result.candidates);
+// Every direction is as good where the paths meet again whatever their angle: one that leaves a radian beside arrives
+// as well. Only where the paths' ends are conjugate need that be tried.
+bool is_family(const Surface& surface, Uv from, Uv to, const Connection& c, const DistanceOptions& options) {
+  constexpr double kConjugate = 1e-6, kTurn = 1.0;
+  if (!(c.length > 0.0 && std::abs(c.y) <= kConjugate * c.length)) return false;
+  ConnectOptions once = options.connect;
+  once.persist = false;
+  const Connection other = connect(surface, from, to, Polar{c.length, c.angle + kTurn}, once);
+  return other.status == ConnectStatus::Converged && std::abs(other.length - c.length) <= kSameLength * c.length &&
+         std::abs(std::remainder(other.angle - c.angle - kTurn, 2.0 * M_PI)) <= kSameAngle;
+}
+
+void conclude(const Surface& surface, Uv from, Uv to, const DistanceOptions& options, DistanceResult& result) {
   if (result.candidates.empty()) return;
+  // Lengths that differ by less are equal as far as two runs of the solver can tell.
+  constexpr double kErrors = 10.0;
   result.shortest = result.candidates.front();
   result.status = result.shortest.status;
+  const double tie = result.shortest.length * (1.0 + kErrors * options.connect.tolerance);
   for (const Connection& c : result.candidates)
-    if (c.length <= result.shortest.length * (1.0 + tie(options))) result.shortest_paths.push_back(c);
+    if (c.length <= tie) result.shortest_paths.push_back(c);
+  result.family = is_family(surface, from, to, result.shortest, options);
   result.leaves_at = first_exit(surface, from, result.shortest);
 }
 
 }  // namespace
 
 DistanceFinder::DistanceFinder(SurfacePtr surface, const DistanceOptions& options)
-    : surface_(std::move(surface)), options_(options) {}
+    : surface_(std::move(surface)), options_(options) {
+  if (!has_closed_form(*surface_)) survey_.emplace(*surface_);
+}
 
 DistanceFinder::DistanceFinder(const Surface& surface, const DistanceOptions& options)
     : DistanceFinder(SurfacePtr(std::shared_ptr<const Surface>(), &surface), options) {}
 
 DistanceResult DistanceFinder::distance(Uv from, Uv to, std::optional<Polar> guess) const {
   const Surface& surface = *surface_;
-  const DistanceOptions& options = options_;
   DistanceResult result;
-  if (auto closed = connections_closed_form(surface, from, to)) {
-    result.candidates = std::move(*closed);
+  if (const auto closed = connections_closed_form(surface, from, to)) {
+    for (const Connection& c : *closed) keep(result, c);
     result.certainty = Certainty::ClosedForm;
     result.doubt = Doubt::None;
-    conclude(surface, from, options, result);
+    conclude(surface, from, to, options_, result);
     return result;
   }
-  const auto ways_u = both_ways(to.u - from.u, surface.u_period());
-  const auto ways_v = both_ways(to.v - from.v, surface.v_period());
-  const Uv nearest = from + UvVec{ways_u.front(), ways_v.front()};
-  const Connection straight = connect(surface, from, nearest, std::nullopt, options.connect);
-  if (guess) keep(result.candidates, connect(surface, from, to, guess, options.connect));
-  keep(result.candidates, straight);
-  result.shortest = straight;
-  result.status = straight.status;
-  result.doubt = Doubt::NotSearched;
-  const bool zero = straight.status == ConnectStatus::Converged && straight.length == 0.0;
-  if (straight.status != ConnectStatus::DegenerateMetric && !zero) {
-    for (const double du : ways_u)
-      for (const double dv : ways_v) {
-        const Ends ends(surface, from, from + UvVec{du, dv});
-        if (ends.to == nearest) continue;
-        keep(result.candidates, connect(surface, from, ends.to, guess_from_parameters(surface, ends), options.connect));
-      }
-    if (options.grid > 0) try_grid(surface, from, nearest, options, result.candidates);
-  }
-  conclude(surface, from, options, result);
-  for (const Connection& c : result.candidates) result.evaluations += c.evaluations;
-  if (result.status == ConnectStatus::DegenerateMetric) result.doubt = Doubt::Degenerate;
-  if (result.status == ConnectStatus::NotConverged) result.doubt = Doubt::NotConverged;
+  const UvVec way{both_ways(to.u - from.u, surface.u_period()).front(),
+                  both_ways(to.v - from.v, surface.v_period()).front()};
+  result.shortest = connect(surface, from, from + way, guess, options_.connect);
+  result.status = result.shortest.status;
+  keep(result, result.shortest);
+  if (!settled_by_curvature(from, result)) search_far(from, from + way, result);
+  conclude(surface, from, to, options_, result);
   return result;
+}
+
+// Sets certainty or doubt.
+bool DistanceFinder::settled_by_curvature(Uv from, DistanceResult& result) const {
+  const Connection& c = result.shortest;
+  result.doubt = c.status == ConnectStatus::DegenerateMetric ? Doubt::Degenerate : Doubt::NotConverged;
+  if (c.status != ConnectStatus::Converged) return false;
+  result.doubt = c.leaves_domain ? Doubt::LeavesDomain : Doubt::NotSearched;
+  if (c.leaves_domain) return false;
+  const auto region = survey_->ball(from, c.length);
+  if (c.length > 0.0 && !region) return false;
+  result.second_at_least = c.length > 0.0 ? second_geodesic_at_least(*region, c.length) : kInf;
+  if (!(result.second_at_least > c.length)) return false;
+  result.certainty = Certainty::Curvature;
+  result.doubt = Doubt::None;
+  return true;
+}
+
+void DistanceFinder::search_far(Uv from, Uv to, DistanceResult& result) const {
+  const Surface& surface = *surface_;
+  if (result.status == ConnectStatus::DegenerateMetric) return;
+  for (const double du : both_ways(to.u - from.u, surface.u_period()))
+    for (const double dv : both_ways(to.v - from.v, surface.v_period())) {
+      const Ends ends(surface, from, from + UvVec{du, dv});
+      if (!(ends.to == to))
+        keep(result, connect(surface, from, ends.to, guess_from_parameters(surface, ends), options_.connect));
+    }
+  if (options_.grid > 0) try_grid(surface, from, to, options_, result);
+  if (!options_.fan) return;
+  const double bound =
+      result.candidates.empty() ? straight_length(surface, from, to) : result.candidates.front().length;
+  const Fan fan = search_fan(surface, from, to, bound);
+  result.evaluations += fan.evaluations;
+  ConnectOptions once = options_.connect;
+  once.persist = false;
+  for (const Polar hit : fan.hits) keep(result, connect(surface, from, to, hit, once));
+  result.doubt = Doubt::FanLost;
+  if (result.candidates.empty()) {
+    result.doubt = Doubt::NotConverged;
+  } else if (result.candidates.front().leaves_domain) {
+    result.doubt = Doubt::LeavesDomain;
+  } else if (fan.complete) {
+    result.certainty = Certainty::Fan;
+    result.doubt = Doubt::None;
+  }
 }
 
 DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOptions& options) {
@@ -174,6 +214,8 @@ std::string explain(const DistanceResult& result) {
   switch (result.doubt) {
     case Doubt::Degenerate:
       return "not certain: a place without tangent plane stands in the way";
+    case Doubt::LeavesDomain:
+      return "not certain: the path leaves the surface's domain";
     case Doubt::NotSearched:
       return "not certain: the points are far from each other, and the way all round was not searched";
     case Doubt::FanLost:

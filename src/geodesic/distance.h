@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geodesic/connect.h"
+#include "geodesic/survey.h"
 
 namespace geovor {
 
@@ -15,6 +16,9 @@ struct DistanceOptions {
   /// Cells of the coarse grid, in each direction, whose graph path is a second start beside the straight line; zero:
   /// none.
   int grid = 24;
+  /// Whether far points are searched for all round by a fan of geodesics. Without it a distance that the curvature does
+  /// not make certain stays uncertain.
+  bool fan = true;
 };
 
 /// Why the shortest path that was found is the shortest.
@@ -30,6 +34,7 @@ enum class Doubt {
   None,
   NotConverged,  ///< no geodesic was found
   Degenerate,    ///< an end, or what lies between the two, has no tangent plane
+  LeavesDomain,  ///< the path that was found leaves the domain: a shorter one within it would touch the border
   NotSearched,   ///< the points are far from each other and no fan was asked for
   FanLost,       ///< a part of the fan could not be followed
 };
@@ -52,8 +57,10 @@ struct DistanceResult {
   std::vector<Connection> candidates;  ///< every different geodesic that was found, by length; the first is `shortest`
   Certainty certainty = Certainty::None;
   Doubt doubt = Doubt::NotConverged;
-  std::optional<DomainExit>
-      leaves_at;  ///< of `shortest`: it is then shortest on the surface continued, not on the domain
+  /// With Certainty::Curvature: any other geodesic between the two is at least as long as this.
+  double second_at_least = 0.0;
+  /// Of `shortest`: it is then a geodesic of the surface continued, not of the domain.
+  std::optional<DomainExit> leaves_at;
   int evaluations = 0;
 };
 
@@ -75,8 +82,12 @@ class DistanceFinder {
   const Surface& surface() const { return *surface_; }
 
  private:
+  bool settled_by_curvature(Uv from, DistanceResult& result) const;
+  void search_far(Uv from, Uv to, DistanceResult& result) const;
+
   SurfacePtr surface_;
   DistanceOptions options_;
+  std::optional<SurfaceSurvey> survey_;
 };
 
 /// The same for a single question: makes a finder for it.
