@@ -66,28 +66,36 @@ UvBox search_box(const Surface& surface, const Ends& ends, double length) {
           search_range(ends.from.v, ends.to.v, length, rate_v, domain.v, surface.v_period())};
 }
 
-double straight_length(const Surface& surface, Uv from, Uv to) {
-  constexpr int kPieces = 16;
+// A rough shortest path on a grid that holds all paths that are no longer than `length`; empty if there is none.
+std::vector<Uv> rough_path(const Surface& surface, const Ends& ends, double length, int cells) {
+  constexpr int kFewestCells = 4;
+  const UvBox box = search_box(surface, ends, length);
+  if (!(box.u.length() > 0.0 && box.v.length() > 0.0 && box.u.length() < kInf && box.v.length() < kInf)) return {};
+  return graph_path(surface, ends.from, ends.to, box, std::max(cells, kFewestCells));
+}
+
+// Length of a polyline of the parameter plane, on the surface: its pieces are cut up, for they may be as long as the
+// surface's waves.
+double length_of(const Surface& surface, const std::vector<Uv>& points) {
+  constexpr int kParts = 8;
   double length = 0.0;
-  Xyz last = surface.position(from);
-  for (int i = 1; i <= kPieces; ++i) {
-    const Xyz next = surface.position(lerp(from, to, double(i) / kPieces));
-    length += (next - last).norm();
-    last = next;
-  }
+  Xyz last = surface.position(points.front());
+  for (std::size_t i = 1; i < points.size(); ++i)
+    for (int part = 1; part <= kParts; ++part) {
+      const Xyz next = surface.position(lerp(points[i - 1], points[i], double(part) / kParts));
+      length += (next - last).norm();
+      last = next;
+    }
   return length;
 }
 
-void try_grid(const Surface& surface, Uv from, Uv to, const DistanceOptions& options, DistanceResult& result) {
-  constexpr int kFewestCells = 4;
-  const Ends ends(surface, from, to);
-  double length = straight_length(surface, from, to);
-  for (const Connection& c : result.candidates) length = std::min(length, c.length);
-  const UvBox box = search_box(surface, ends, length);
-  if (!(box.u.length() > 0.0 && box.v.length() > 0.0 && box.u.length() < kInf && box.v.length() < kInf)) return;
-  const auto path = graph_path(surface, from, to, box, std::max(options.grid, kFewestCells));
-  if (path.empty()) return;
-  keep(result, connect_along(surface, Ends(surface, from, path.back()), path, options.connect));
+// A hit beside a geodesic that is known already.
+bool is_known(const FanHit& hit, const std::vector<Connection>& all) {
+  constexpr double kNear = 0.03;  // of the length: hits are good to some percent
+  return hit.plain && std::any_of(all.begin(), all.end(), [&](const Connection& c) {
+           return std::abs(c.length - hit.at.s) <= kNear * c.length &&
+                  std::abs(std::remainder(c.angle - hit.at.t, 2.0 * M_PI)) <= 0.5 * hit.turn;
+         });
 }
 
 std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Connection& c) {
@@ -167,33 +175,49 @@ bool DistanceFinder::settled_by_curvature(Uv from, DistanceResult& result) const
   return true;
 }
 
+// No shortest path is longer than the path found so far, nor than any other path.
 void DistanceFinder::search_far(Uv from, Uv to, DistanceResult& result) const {
+  constexpr double kDirect = 1.2;  // a path no longer than this many chords needs no other bound
+  constexpr double kRough = 1.02;  // the allowance for the length of a polyline
   const Surface& surface = *surface_;
   if (result.status == ConnectStatus::DegenerateMetric) return;
+  const Ends ends(surface, from, to);
+  double bound =
+      result.candidates.empty() ? length_of(surface, {from, lerp(from, to, 0.5), to}) : result.shortest.length;
+  std::vector<Uv> rough;
+  if (options_.grid > 0 && bound > kDirect * (ends.at_to.S - ends.at_from.S).norm()) {
+    rough = rough_path(surface, ends, bound, options_.grid);
+    if (!rough.empty()) bound = std::min(bound, kRough * length_of(surface, rough));
+  }
+  if (options_.fan && search_fan_of(ends, bound, result)) return;
+  if (!rough.empty()) keep(result, connect_along(surface, Ends(surface, from, rough.back()), rough, options_.connect));
   for (const double du : both_ways(to.u - from.u, surface.u_period()))
     for (const double dv : both_ways(to.v - from.v, surface.v_period())) {
-      const Ends ends(surface, from, from + UvVec{du, dv});
-      if (!(ends.to == to))
-        keep(result, connect(surface, from, ends.to, guess_from_parameters(surface, ends), options_.connect));
+      const Ends way(surface, from, from + UvVec{du, dv});
+      if (!(way.to == to))
+        keep(result, connect(surface, from, way.to, guess_from_parameters(surface, way), options_.connect));
     }
-  if (options_.grid > 0) try_grid(surface, from, to, options_, result);
-  if (!options_.fan) return;
-  const double bound =
-      result.candidates.empty() ? straight_length(surface, from, to) : result.candidates.front().length;
-  const Fan fan = search_fan(surface, from, to, bound);
+}
+
+// True if the answer is certain now.
+bool DistanceFinder::search_fan_of(const Ends& ends, double bound, DistanceResult& result) const {
+  const Fan fan = search_fan(*surface_, ends.from, ends.to, bound);
   result.evaluations += fan.evaluations;
   ConnectOptions once = options_.connect;
   once.persist = false;
-  for (const Polar hit : fan.hits) keep(result, connect(surface, from, to, hit, once));
-  result.doubt = Doubt::FanLost;
+  for (const FanHit& hit : fan.hits)
+    if (!is_known(hit, result.candidates)) keep(result, connect(*surface_, ends.from, ends.to, hit.at, once));
   if (result.candidates.empty()) {
     result.doubt = Doubt::NotConverged;
   } else if (result.candidates.front().leaves_domain) {
     result.doubt = Doubt::LeavesDomain;
-  } else if (fan.complete) {
+  } else if (!fan.complete) {
+    result.doubt = Doubt::FanLost;
+  } else {
     result.certainty = Certainty::Fan;
     result.doubt = Doubt::None;
   }
+  return result.certainty == Certainty::Fan;
 }
 
 DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOptions& options) {

@@ -11,6 +11,8 @@
 
 namespace geovor {
 
+struct Ends;
+
 struct DistanceOptions {
   ConnectOptions connect;
   /// Cells of the coarse grid, in each direction, whose graph path is a second start beside the straight line; zero:
@@ -84,6 +86,7 @@ class DistanceFinder {
  private:
   bool settled_by_curvature(Uv from, DistanceResult& result) const;
   void search_far(Uv from, Uv to, DistanceResult& result) const;
+  bool search_fan_of(const Ends& ends, double bound, DistanceResult& result) const;
 
   SurfacePtr surface_;
   DistanceOptions options_;

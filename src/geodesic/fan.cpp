@@ -191,7 +191,8 @@ void Search::look(const Ray& ray, const Ray& before, const Ray& after) {
     const double change = std::max(std::abs(y_at(before, s) - y), std::abs(y_at(after, s) - y));
     if (!(std::abs(b) <= turn * (std::abs(y) + change) + 0.02 * h)) continue;
     const double off = std::clamp(b / y, -turn, turn);
-    fan_.hits.push_back({s, ray.t + (std::isfinite(off) ? off : 0.0)});
+    constexpr double kPlain = 0.5;
+    fan_.hits.push_back({{s, ray.t + (std::isfinite(off) ? off : 0.0)}, turn, change < kPlain * std::abs(y)});
   }
 }
 
@@ -204,7 +205,7 @@ Fan Search::run() {
     const Ray& after = std::next(r) == rays_.end() ? rays_.begin()->second : std::next(r)->second;
     look(r->second, before, after);
   }
-  std::sort(fan_.hits.begin(), fan_.hits.end(), [](Polar a, Polar b) { return a.s < b.s; });
+  std::sort(fan_.hits.begin(), fan_.hits.end(), [](const FanHit& a, const FanHit& b) { return a.at.s < b.at.s; });
   return fan_;
 }
 

@@ -8,8 +8,15 @@
 
 namespace geovor {
 
+/// Where a geodesic seems to end at the target.
+struct FanHit {
+  Polar at;           ///< to some percent
+  double turn = 0.0;  ///< to the next geodesic that was followed
+  bool plain = true;  ///< far from conjugate points: only one geodesic can be meant
+};
+
 struct Fan {
-  std::vector<Polar> hits;  ///< where a geodesic ends at the target, to some percent: guesses for connect()
+  std::vector<FanHit> hits;  ///< by length; neighbours often hit with the same geodesic in mind
   /// Every point within the length, on the domain, lies between two neighbouring geodesics that are close to each other
   /// for the curvature thereabouts. If not, some could not be followed far enough, or spread too fast.
   bool complete = false;
