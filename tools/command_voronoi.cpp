@@ -25,16 +25,6 @@ namespace {
 /// Kinds of warnings that say that a part of the diagram is missing.
 const std::set<std::string> kIncomplete = {"unresolved", "areas_differ", "cut_locus"};
 
-const CadFace& chosen_face(const CadModel& model, const VoronoiArguments& arguments) {
-  const int count = static_cast<int>(model.faces.size());
-  if (!arguments.face && count > 1) {
-    throw Error(ErrorCode::Usage, fmt::format("the file has {} faces; choose one with --face N", count));
-  }
-  const int number = arguments.face.value_or(1);
-  check_faces_exist({number}, count);
-  return model.faces[static_cast<std::size_t>(number - 1)];
-}
-
 VoronoiRequest request_of(const VoronoiArguments& arguments, const SitesFile& file) {
   VoronoiRequest request;
   for (const SiteRow& row : file.rows) {
@@ -73,20 +63,7 @@ VoronoiResult compute(const CadModel& model, const CadFace& face, const VoronoiA
   }
 }
 
-DiagramSource source_of(const CadModel& model, const CadFace& face, const VoronoiResult& result) {
-  DiagramSource source;
-  source.generator = "geovor " GEOVOR_VERSION;
-  source.input = model.file;
-  source.face = face.number;
-  source.unit = model.unit;
-  source.surface_type = to_string(result.surface->kind());
-  source.parameters = result.parameters;
-  source.u_period = result.surface->u_period();
-  source.v_period = result.surface->v_period();
-  return source;
-}
-
-void write_outputs(const VoronoiArguments& arguments, const DiagramSource& source, const VoronoiResult& result) {
+void write_outputs(const VoronoiArguments& arguments, const DocumentSource& source, const VoronoiResult& result) {
   StagedOutputs outputs;
   for (const std::string& path : arguments.outputs) {
     outputs.add(path, [&](const std::string& place) {
@@ -155,7 +132,8 @@ int run(const VoronoiArguments& arguments) {
   Stopwatch watch;
   const CadModel model = in_context(arguments.input, [&] { return read_cad(arguments.input); });
   const double seconds_read = watch.lap();
-  const CadFace& face = in_context(arguments.input, [&]() -> const CadFace& { return chosen_face(model, arguments); });
+  const CadFace& face =
+      in_context(arguments.input, [&]() -> const CadFace& { return chosen_face(model, arguments.face); });
   const VoronoiResult result = compute(model, face, arguments, file);
   const double seconds_diagram = watch.lap();
   if (!std::isfinite(largest_residual(result.diagram))) {
@@ -164,7 +142,7 @@ int run(const VoronoiArguments& arguments) {
         fmt::format("{}: {}: the diagram of these sites could not be finished; more sites, or other ones, may mend it",
                     model.file, face_label(face.number)));
   }
-  write_outputs(arguments, source_of(model, face, result), result);
+  write_outputs(arguments, document_source(model, face, result.parameters), result);
   const bool complete = name_failure(model, face, result.diagram);
   print_summary(model, face, result);
   fmt::print("{:<17} read {:.2f}, diagram {:.2f}, write {:.2f}\n", "seconds", seconds_read, seconds_diagram,

@@ -8,6 +8,7 @@ namespace geovor {
 int run(const InfoArguments& arguments);
 int run(const MeshArguments& arguments);
 int run(const VoronoiArguments& arguments);
+int run(const DistanceArguments& arguments);
 inline int run(const NoArguments&) { return 0; }
 
 }  // namespace geovor

@@ -1,29 +1,11 @@
 #include "diagram_json.h"
 
-#include <nlohmann/json.hpp>
-
 #include "io/atomic_file.h"
 
 namespace geovor {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json pair(Uv p) { return Json::array({p.u, p.v}); }
-Json triple(const Xyz& x) { return Json::array({x.x(), x.y(), x.z()}); }
-Json range(const Interval& i) { return Json::array({i.lo, i.hi}); }
-
-Json optional_number(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
-
 Json index_or_null(int i) { return i >= 0 ? Json(i) : Json(nullptr); }
-
-/// The list with each element turned into JSON by convert(i, element).
-template <class List, class Convert>
-Json each(const List& list, const Convert& convert) {
-  Json out = Json::array();
-  for (size_t i = 0; i < list.size(); ++i) out.push_back(convert(i, list[i]));
-  return out;
-}
 
 Json sites_json(const VoronoiDiagram& d) {
   return each(d.sites, [](size_t i, const DiagramSite& s) {
@@ -98,31 +80,20 @@ Json dual_json(const DualGraph& dual) {
 
 }  // namespace
 
-std::string diagram_json(const DiagramSource& source, const VoronoiDiagram& diagram, const DualGraph& dual) {
-  Json document;
-  document["format"] = "geovor-voronoi";
-  document["version"] = 1;
-  document["generator"] = source.generator;
-  document["input"] = source.input;
-  document["face"] = source.face;
-  document["unit"] = source.unit;
+std::string diagram_json(const DocumentSource& source, const VoronoiDiagram& diagram, const DualGraph& dual) {
+  Json document = document_head("geovor-voronoi", source);
   document["tolerance"] = diagram.tolerance;
-  document["surface"] = Json{{"type", source.surface_type},
-                             {"u", range(source.parameters.u)},
-                             {"v", range(source.parameters.v)},
-                             {"u_period", optional_number(source.u_period)},
-                             {"v_period", optional_number(source.v_period)}};
+  document["surface"] = surface_json(source);
   document["sites"] = sites_json(diagram);
   document["vertices"] = vertices_json(diagram);
   document["edges"] = edges_json(diagram);
   document["cells"] = cells_json(diagram);
   document["warnings"] = warnings_json(diagram);
   document["delaunay"] = dual_json(dual);
-  // A name that is no UTF-8 is written with replacement characters.
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return document_text(document);
 }
 
-void write_diagram_json(const DiagramSource& source, const VoronoiDiagram& diagram, const DualGraph& dual,
+void write_diagram_json(const DocumentSource& source, const VoronoiDiagram& diagram, const DualGraph& dual,
                         const std::string& path) {
   write_file(path, diagram_json(source, diagram, dual));
 }

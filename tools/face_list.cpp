@@ -64,4 +64,13 @@ void check_faces_exist(const std::vector<int>& numbers, int count) {
   }
 }
 
+const CadFace& chosen_face(const CadModel& model, std::optional<int> number) {
+  const int count = static_cast<int>(model.faces.size());
+  if (!number && count > 1) {
+    throw Error(ErrorCode::Usage, fmt::format("the file has {} faces; choose one with --face N", count));
+  }
+  check_faces_exist({number.value_or(1)}, count);
+  return model.faces[static_cast<std::size_t>(number.value_or(1) - 1)];
+}
+
 }  // namespace geovor

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "context.h"
 #include "face_list.h"
+#include "numbers.h"
 #include "outputs.h"
 
 namespace geovor {
@@ -14,6 +16,8 @@ namespace {
 
 const std::vector<std::string> kMeshEndings = {".stl", ".step", ".stp", ".obj", ".svg"};
 const std::vector<std::string> kVoronoiEndings = {".json", ".svg"};
+const std::vector<std::string> kDistanceEndings = {".json", ".step", ".stp", ".svg"};
+const std::vector<std::string> kReportEndings = {".json"};
 
 const char* const kFooter =
     "Lengths are in the unit of the input file (geovor info prints it). Faces are numbered as FreeCAD numbers them: "
@@ -44,11 +48,15 @@ CLI::Validator whole_number_check(int least) {
       "");
 }
 
+CLI::Option* add_face(CLI::App& command, std::string& face) {
+  return command.add_option("--face", face, "The face, such as 3 or Face3 (not needed where the file has one)")
+      ->type_name("N");
+}
+
 /// -o takes one path each time it is written, so that the input may follow it.
 CLI::Option* add_outputs(CLI::App& command, std::vector<std::string>& outputs, const std::string& formats) {
   return command
       .add_option("-o,--output", outputs, "Output, may be given several times; the ending says what: " + formats)
-      ->required()
       ->allow_extra_args(false)
       ->type_name("FILE");
 }
@@ -66,7 +74,7 @@ void add_info(CLI::App& app, InfoArguments& arguments) {
 void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
   CLI::App* command = app.add_subcommand("mesh", "Mesh the faces of a CAD file with triangles");
   add_input(*command, arguments.input);
-  add_outputs(*command, arguments.outputs, ".stl .step .stp .obj .svg (a picture)");
+  add_outputs(*command, arguments.outputs, ".stl .step .stp .obj .svg (a picture)")->required();
   const auto length = [&](const char* name, double& value, const char* help, bool zero_too = false) {
     return command->add_option(name, value, help)->check(length_check(zero_too))->type_name("LENGTH");
   };
@@ -92,9 +100,8 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
 void add_voronoi(CLI::App& app, VoronoiArguments& arguments, std::string& face) {
   CLI::App* command = app.add_subcommand("voronoi", "Compute the geodesic Voronoi diagram of sites on one face");
   add_input(*command, arguments.input);
-  add_outputs(*command, arguments.outputs, ".json .svg");
-  command->add_option("--face", face, "The face, such as 3 or Face3 (not needed where the file has one)")
-      ->type_name("N");
+  add_outputs(*command, arguments.outputs, ".json .svg")->required();
+  add_face(*command, face);
   CLI::Option* sites =
       command->add_option("--sites", arguments.sites, "CSV file with the header u,v or x,y,z")->type_name("FILE");
   CLI::Option* count = command->add_option("--count", arguments.count, "Place so many sites, evenly")
@@ -110,6 +117,19 @@ void add_voronoi(CLI::App& app, VoronoiArguments& arguments, std::string& face) 
   command->add_flag("--snap", arguments.snap, "Move sites in space onto the face, however far they are")->needs(sites);
   sites->excludes(count)->excludes(spacing);
   count->excludes(spacing);
+}
+
+void add_distance(CLI::App& app, DistanceArguments& arguments, std::string& face) {
+  CLI::App* command = app.add_subcommand("distance", "Compute the shortest path between two points of one face");
+  add_input(*command, arguments.input);
+  add_outputs(*command, arguments.outputs, ".json .step .stp (curves) .svg (a picture)");
+  add_face(*command, face);
+  const auto point = [&](const char* name, std::string& text, const char* help) {
+    command->add_option(name, text, help)->required()->type_name("P");
+  };
+  point("--from", arguments.from_text, "Where the path starts: u,v or x,y,z");
+  point("--to", arguments.to_text, "Where it ends: u,v or x,y,z");
+  command->add_flag("--snap", arguments.snap, "Move points that are off the face onto it, however far they are");
 }
 
 /// CLI11's messages run over several lines and end in full stops; ours are one line.
@@ -130,9 +150,14 @@ std::string one_line(std::string text) {
   throw Error(ErrorCode::Usage, fmt::format("{}; see geovor{} --help", one_line(message), command));
 }
 
+std::optional<int> face_of(const std::string& text, const CLI::App& command) {
+  return command.count("--face") > 0 ? std::optional(parse_face(text)) : std::nullopt;
+}
+
 CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI::App& command) {
   check_endings(arguments.outputs, kMeshEndings);
-  if (!faces.empty()) arguments.faces = parse_face_list(faces);
+  if (command.count("--report") > 0) check_endings({arguments.report}, kReportEndings);
+  if (command.count("--faces") > 0) arguments.faces = parse_face_list(faces);
   if (command.count("--progress") > 0) arguments.progress = ProgressWish::Always;
   if (command.count("--no-progress") > 0) arguments.progress = ProgressWish::Never;
   if (arguments.min_size > arguments.size) {
@@ -142,12 +167,20 @@ CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI
   return arguments;
 }
 
-CommandLine checked(VoronoiArguments arguments, const std::string& face) {
+CommandLine checked(VoronoiArguments arguments, const std::string& face, const CLI::App& command) {
   check_endings(arguments.outputs, kVoronoiEndings);
-  if (!face.empty()) arguments.face = parse_face(face);
+  arguments.face = face_of(face, command);
   if (arguments.sites.empty() && arguments.count == 0 && arguments.spacing == 0.0) {
     throw Error(ErrorCode::Usage, "voronoi needs sites; give --sites FILE, --count N or --spacing LENGTH");
   }
+  return arguments;
+}
+
+CommandLine checked(DistanceArguments arguments, const std::string& face, const CLI::App& command) {
+  check_endings(arguments.outputs, kDistanceEndings);
+  arguments.face = face_of(face, command);
+  arguments.from = in_context("--from", [&] { return parse_point(arguments.from_text); });
+  arguments.to = in_context("--to", [&] { return parse_point(arguments.to_text); });
   return arguments;
 }
 
@@ -161,10 +194,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   InfoArguments info;
   MeshArguments mesh;
   VoronoiArguments voronoi;
-  std::string mesh_faces, voronoi_face;
+  DistanceArguments distance;
+  std::string mesh_faces, face;
   add_info(app, info);
   add_mesh(app, mesh, mesh_faces);
-  add_voronoi(app, voronoi, voronoi_face);
+  add_voronoi(app, voronoi, face);
+  add_distance(app, distance, face);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -173,7 +208,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     return NoArguments{};
   }
   if (app.got_subcommand("info")) return info;
-  if (app.got_subcommand("voronoi")) return checked(voronoi, voronoi_face);
+  if (app.got_subcommand("voronoi")) return checked(voronoi, face, *app.get_subcommand("voronoi"));
+  if (app.got_subcommand("distance")) return checked(distance, face, *app.get_subcommand("distance"));
   return checked(mesh, mesh_faces, *app.get_subcommand("mesh"));
 }
 

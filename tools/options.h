@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipeline/face_point.h"
 #include "progress.h"
 
 namespace geovor {
@@ -44,10 +45,19 @@ struct VoronoiArguments {
   bool snap = false;  ///< sites off the face are moved onto it
 };
 
+struct DistanceArguments {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::optional<int> face;
+  std::string from_text, to_text;  ///< as the user wrote them, for messages
+  FacePoint from, to;
+  bool snap = false;  ///< points off the face are moved onto it
+};
+
 /// Nothing left to do: the help or the version was printed.
 struct NoArguments {};
 
-using CommandLine = std::variant<NoArguments, InfoArguments, MeshArguments, VoronoiArguments>;
+using CommandLine = std::variant<NoArguments, InfoArguments, MeshArguments, VoronoiArguments, DistanceArguments>;
 
 /// Prints the help or the version on stdout where these are asked for. Throws Error(Usage), with one line that ends in
 /// where to read more.

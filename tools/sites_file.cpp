@@ -2,47 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <fstream>
 
 #include "base/error.h"
+#include "context.h"
+#include "numbers.h"
 
 namespace geovor {
 namespace {
-
-const char* const kBlanks = " \t\r";
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::size_t begin = 0;
-  while (begin <= line.size()) {
-    const std::size_t comma = std::min(line.find(',', begin), line.size());
-    cells.push_back(trimmed(line.substr(begin, comma - begin)));
-    begin = comma + 1;
-  }
-  return cells;
-}
 
 [[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
   throw Error(ErrorCode::Usage, fmt::format("{}: line {}: {}", path, line, message));
 }
 
 double number(const std::string& cell, const std::string& path, int line) {
-  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
-  const char* end = cell.data() + cell.size();
-  double value = 0.0;
-  const auto [stop, status] = std::from_chars(begin, end, value);
-  if (status != std::errc() || stop != end || !std::isfinite(value)) {
-    fail(path, line, fmt::format("'{}' is no number; write one such as 0.25", cell));
-  }
-  return value;
+  return in_context(fmt::format("{}: line {}", path, line), [&] { return parse_number(cell); });
 }
 
 /// Whether the header says x,y,z.
@@ -72,7 +46,7 @@ SitesFile read_sites_file(const std::string& path) {
   bool header_seen = false;
   std::string text;
   for (int line = 1; std::getline(stream, text); ++line) {
-    const std::string content = trimmed(text.substr(0, text.find('#')));
+    const std::string content = without_blanks(text.substr(0, text.find('#')));
     if (content.empty()) continue;
     const std::vector<std::string> cells = cells_of(content);
     if (!header_seen) {

@@ -3,23 +3,20 @@
 
 #include <string>
 
+#include "io/face_views.h"
 #include "voronoi/cell_raster.h"
 #include "voronoi/diagram.h"
 #include "voronoi/dual.h"
 
 namespace geovor {
 
-struct DiagramPictureOptions {
-  int width = 1800, height = 960;  ///< page units
-};
-
 /// Cells in soft colours, edges dark (cut loci dotted), Delaunay edges dashed, sites as dots; what is hidden in space
 /// is left out. The same diagram gives the same bytes.
 std::string diagram_svg(const VoronoiDiagram& diagram, const DualGraph& dual, const CellRaster& raster,
-                        const DiagramPictureOptions& options = {});
+                        const PictureSize& size = {});
 
 /// Writes it; the file is complete or absent. Throws Error(Unwritable).
 void write_diagram_svg(const VoronoiDiagram& diagram, const DualGraph& dual, const CellRaster& raster,
-                       const std::string& path, const DiagramPictureOptions& options = {});
+                       const std::string& path, const PictureSize& size = {});
 
 }  // namespace geovor

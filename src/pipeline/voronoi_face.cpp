@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "brep/face_domain.h"
-#include "surface/project.h"
+#include "pipeline/face_point.h"
 #include "voronoi/diagram_builder.h"
 #include "voronoi/lattice.h"
 #include "voronoi/place_sites.h"
@@ -16,18 +16,12 @@ namespace {
 // The border's polyline lies within this part of the face's size.
 constexpr double kBorderDeflection = 1e-6;
 
-// A site given in space may lie off the face by the face's tolerance, but rounding of printed coordinates is forgiven
-// too.
-constexpr double kPrintedCoordinates = 1e-6;
-
 // Areas of the cells and the face agree to this where all is well.
 constexpr double kAreasAgree = 1e-3;
 
 // Patches of a picture: some 4 units high on a usual page.
 constexpr int kRasterRows = 160;
 constexpr int kRasterColumns = 48;
-
-constexpr double kFaceTolerance = 1e-7;  // OpenCASCADE's Precision::Confusion
 
 std::string text(double x) {
   char buffer[32];
@@ -36,11 +30,11 @@ std::string text(double x) {
 }
 
 Uv locate(const FaceDomain& domain, int index, const Xyz& x, double tolerance, bool snap) {
-  const Projection p = project(domain.surface(), x, domain.box());
-  if (!snap && !(p.distance <= tolerance)) {
-    throw SiteError(index, -1, "lies off the face by " + text(p.distance) + "; move it onto the face, or give --snap");
+  try {
+    return project_on_face(domain, x, tolerance, snap).uv;
+  } catch (const Error& error) {
+    throw SiteError(index, -1, error.what());
   }
-  return domain.to_principal(p.uv);
 }
 
 std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request, double tolerance) {
@@ -85,9 +79,9 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   if (!face.surface) {
     throw Error(ErrorCode::FaceRejected, face.problems.empty() ? "the face has no surface" : face.problems.front());
   }
-  const double deflection = std::max(kBorderDeflection * model.diagonal(), kFaceTolerance);
+  const double deflection = std::max(kBorderDeflection * model.diagonal(), kConfusion);
   const FaceDomain domain(model, face, deflection);
-  const double tolerance = std::max({face.tolerance, kFaceTolerance, kPrintedCoordinates * face_size(domain)});
+  const double tolerance = printed_tolerance(domain, face);
   VoronoiResult result;
   const std::vector<Uv> sites = sites_of(domain, request, tolerance);
   check_sites(domain, sites, tolerance);

@@ -16,7 +16,7 @@ namespace {
 struct TwoCells {
   VoronoiDiagram diagram;
   DualGraph dual;
-  DiagramSource source;
+  DocumentSource source;
   CellRaster raster;
 
   TwoCells() {

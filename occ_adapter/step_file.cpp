@@ -1,0 +1,91 @@
+// The part of writing STEP that is the same for meshes and curves: units, header, names, and a file that is complete or
+// absent.
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_StepModel.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <filesystem>
+
+#include "occ_adapter/occ_write_private.h"
+
+namespace geovor::occ {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// OpenCASCADE's word for a unit of length.
+std::string occ_unit(const std::string& unit) {
+  static const std::map<std::string, std::string> names = {{"mm", "MM"}, {"m", "M"},     {"cm", "CM"}, {"km", "KM"},
+                                                           {"um", "UM"}, {"in", "INCH"}, {"ft", "FT"}, {"mi", "MI"}};
+  const auto found = names.find(unit);
+  if (found == names.end()) {
+    throw Error(ErrorCode::Unwritable,
+                "STEP knows no unit of length '" + unit + "'; use mm, m, cm, km, um, in, ft or mi");
+  }
+  return found->second;
+}
+
+Handle(TCollection_HAsciiString) text(const std::string& s) { return new TCollection_HAsciiString(s.c_str()); }
+
+/// Transfers one shape and names its product: OpenCASCADE would give it a running number of its own.
+void transfer(STEPControl_Writer& writer, const NamedShape& named) {
+  const int before = writer.Model()->NbEntities();
+  if (writer.Transfer(named.shape, STEPControl_AsIs) != IFSelect_RetDone) {
+    throw Error(ErrorCode::Unwritable, "OpenCASCADE can't turn the shape into STEP; write another format");
+  }
+  for (int i = before + 1; i <= writer.Model()->NbEntities(); ++i) {
+    const auto product = Handle(StepBasic_Product)::DownCast(writer.Model()->Value(i));
+    if (!product.IsNull()) product->SetName(text(named.name)), product->SetId(text(named.name));
+  }
+}
+
+/// Without the clock: the same shapes give the same bytes.
+void fill_header(STEPControl_Writer& writer, const std::string& path, const std::string& description) {
+  APIHeaderSection_MakeHeader header(writer.Model());
+  header.SetName(text(fs::path(path).filename().string()));
+  header.SetTimeStamp(text("1970-01-01T00:00:00"));
+  header.SetAuthorValue(1, text(""));
+  header.SetOrganizationValue(1, text(""));
+  header.SetOriginatingSystem(text("geovor"));
+  header.SetDescriptionValue(1, text(description));
+}
+
+void write_shapes(const std::vector<NamedShape>& shapes, const StepFile& file, const std::string& place) {
+  STEPControl_Writer writer;
+  for (const NamedShape& named : shapes) transfer(writer, named);
+  fill_header(writer, file.path, file.description);
+  if (writer.Write(place.c_str()) != IFSelect_RetDone) {
+    throw Error(ErrorCode::Unwritable, "can't write here; check folder, permissions and free space");
+  }
+}
+
+}  // namespace
+
+void write_step_file(const StepFile& file, const std::function<std::vector<NamedShape>()>& shapes) {
+  const std::string length_unit = occ_unit(file.unit);
+  const std::string beside = file.path + ".part";
+  std::error_code failed;
+  try {
+    translated(ErrorCode::Unwritable, "OpenCASCADE fails to write STEP", "write another format", [&] {
+      const Silence silence;
+      STEPControl_Controller::Init();
+      // Both units alike: OpenCASCADE then writes the numbers as they are. It reads them when the writer is made, not
+      // when it writes.
+      const StaticParameter model_unit("xstep.cascade.unit", length_unit);
+      const StaticParameter file_unit("write.step.unit", length_unit);
+      const StaticParameter schema("write.step.schema", "AP214IS");
+      // Planes and lines need no curves in the parameter plane, and without them the file is half as long.
+      const StaticParameter no_pcurves("write.surfacecurve.mode", "0");
+      write_shapes(shapes(), file, beside);
+    });
+    fs::rename(beside, file.path, failed);
+    if (failed) throw Error(ErrorCode::Unwritable, "can't write here; check folder, permissions and free space");
+  } catch (...) {
+    fs::remove(beside, failed);
+    throw;
+  }
+}
+
+}  // namespace geovor::occ

@@ -1,0 +1,244 @@
+#include "io/face_views.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/hidden_surfaces.h"
+#include "io/number_text.h"
+
+namespace geovor {
+namespace {
+
+// Of the page's height, around each of the two views.
+constexpr double kMargin = 0.08;
+
+// A line on the surface is hidden only by what lies clearly in front of it (page units).
+constexpr double kHiddenSlack = 6.0;
+
+// The parameter view keeps the rectangle's shape within these ratios of width to height.
+constexpr double kTallest = 0.5, kWidest = 2.0;
+
+// How far the tints of the cells are moved towards white.
+constexpr double kPale = 0.45;
+
+constexpr int kDecimals = 2;
+
+std::vector<Xyz> corners(const CellRaster& raster) {
+  std::vector<Xyz> points;
+  for (const CellPatch& p : raster.patches) points.insert(points.end(), p.xyz.begin(), p.xyz.end());
+  return points;
+}
+
+/// The left (0) or right (1) half of the page.
+PageFrame frame(const PictureSize& o, int half) {
+  const double margin = kMargin * o.height;
+  const double width = 0.5 * o.width - 1.5 * margin;
+  return {margin + half * (width + margin), margin, width, o.height - 2.0 * margin};
+}
+
+PageFrame parameter_frame(const UvBox& box, const PageFrame& room) {
+  const double ratio = std::clamp(box.u.length() / box.v.length(), kTallest, kWidest);
+  const double width = std::min(room.width, room.height * ratio), height = width / ratio;
+  return {room.left + 0.5 * (room.width - width), room.top + 0.5 * (room.height - height), width, height};
+}
+
+}  // namespace
+
+FaceViews::FaceViews(const CellRaster& raster, const std::string& title, const std::string& style,
+                     const PictureSize& size)
+    : raster_(raster),
+      size_(size),
+      view_(PictureProjection::isometric(corners(raster), frame(size, 0))),
+      plane_(parameter_frame(raster.box, frame(size, 1))),
+      depth_(size.width, size.height) {
+  for (const CellPatch& p : raster.patches) {
+    for (int k = 2; k < 4; ++k) depth_.add_triangle(view_(p.xyz[0]), view_(p.xyz[k - 1]), view_(p.xyz[k]));
+  }
+  append_head(title, style);
+}
+
+void FaceViews::append_head(const std::string& title, const std::string& style) {
+  const std::string width = std::to_string(size_.width), height = std::to_string(size_.height);
+  text_ += "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
+           "\" viewBox=\"0 0 " + width + ' ' + height + "\">\n<title>" + title + "</title>\n";
+  text_ +=
+      "<style>path{stroke-linejoin:round;stroke-linecap:round}.b,.f{fill:none;stroke:#1c2733}"
+      ".f{stroke-opacity:.3;stroke-width:1}.b{stroke-width:1.3}" +
+      style + "</style>\n";
+  text_ += "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"#fbfbfa\"/>\n";
+}
+
+PagePoint FaceViews::on_plane(Uv p) const {
+  const double x = (p.u - raster_.box.u.lo) / raster_.box.u.length();
+  const double y = (p.v - raster_.box.v.lo) / raster_.box.v.length();
+  return {plane_.left + x * plane_.width, plane_.top + (1.0 - y) * plane_.height, 0.0};
+}
+
+void FaceViews::append_number(double x) { append_rounded(text_, x, kDecimals); }
+
+void FaceViews::append_point(char command, const PagePoint& p) {
+  text_ += command;
+  append_number(p.x);
+  text_ += ' ';
+  append_number(p.y);
+}
+
+void FaceViews::append_polygon(const std::array<PagePoint, 4>& corners, const std::string& fill) {
+  text_ += "<path d=\"";
+  for (int k = 0; k < 4; ++k) append_point(k == 0 ? 'M' : 'L', corners[k]);
+  text_ += "Z\" fill=\"" + fill + "\" stroke=\"" + fill + "\"/>\n";
+}
+
+std::string FaceViews::lit_tint(const LinearColour& tint, const Xyz& normal) const {
+  return to_hex(lit(tint + kPale * (LinearColour::Ones() - tint), normal, view_));
+}
+
+void FaceViews::paint(const std::function<LinearColour(int site)>& tint) {
+  text_ += "<g shape-rendering=\"crispEdges\">\n";  // with the strokes: no hairlines between patches
+  paint_space(tint);
+  paint_plane(tint);
+  text_ += "</g>\n";
+  append_frame();
+  for (size_t i = 0; i < raster_.border.size(); ++i) {
+    space_line(raster_.border[i], "b");
+    plane_line(raster_.border_uv[i], "b");
+  }
+}
+
+void FaceViews::paint_space(const std::function<LinearColour(int site)>& tint) {
+  std::vector<PageTriangle> triangles;
+  for (const CellPatch& p : raster_.patches) {
+    triangles.push_back({view_(p.xyz[0]), view_(p.xyz[1]), view_(p.xyz[2])});
+    triangles.push_back({view_(p.xyz[0]), view_(p.xyz[2]), view_(p.xyz[3])});
+  }
+  std::vector<char> painted(raster_.patches.size(), 0);
+  for (int t : painting_order(triangles, size_.width, size_.height)) {
+    if (painted[t / 2]) continue;
+    painted[t / 2] = 1;
+    const CellPatch& p = raster_.patches[t / 2];
+    Xyz n = (p.xyz[2] - p.xyz[0]).cross(p.xyz[3] - p.xyz[1]);
+    n = n.isZero(0.0) ? n : Xyz(n.stableNormalized());
+    if (n.dot(view_.towards_viewer()) < 0.0) n = -n;
+    append_polygon({view_(p.xyz[0]), view_(p.xyz[1]), view_(p.xyz[2]), view_(p.xyz[3])}, lit_tint(tint(p.site), n));
+  }
+}
+
+// The rectangle of the parameters: what is no border of the face in it is a seam or a pole.
+void FaceViews::append_frame() {
+  const UvBox& b = raster_.box;
+  text_ += "<path class=\"f\" d=\"";
+  append_point('M', on_plane({b.u.lo, b.v.lo}));
+  append_point('L', on_plane({b.u.hi, b.v.lo}));
+  append_point('L', on_plane({b.u.hi, b.v.hi}));
+  append_point('L', on_plane({b.u.lo, b.v.hi}));
+  text_ += "Z\"/>\n";
+  text_ += "<clipPath id=\"plane\"><rect x=\"";
+  append_number(plane_.left);
+  text_ += "\" y=\"";
+  append_number(plane_.top);
+  text_ += "\" width=\"";
+  append_number(plane_.width);
+  text_ += "\" height=\"";
+  append_number(plane_.height);
+  text_ += "\"/></clipPath>\n";
+}
+
+// One polygon a run of patches of the same cell in a row.
+void FaceViews::paint_plane(const std::function<LinearColour(int site)>& tint) {
+  for (size_t i = 0; i < raster_.patches.size();) {
+    size_t last = i;
+    const auto joins = [&](const CellPatch& a, const CellPatch& b) {
+      return a.site == b.site && a.uv[1] == b.uv[0] && a.uv[2] == b.uv[3];
+    };
+    while (last + 1 < raster_.patches.size() && joins(raster_.patches[last], raster_.patches[last + 1])) ++last;
+    const CellPatch &a = raster_.patches[i], &b = raster_.patches[last];
+    append_polygon({on_plane(a.uv[0]), on_plane(b.uv[1]), on_plane(b.uv[2]), on_plane(a.uv[3])},
+                   lit_tint(tint(a.site), view_.towards_viewer()));
+    i = last + 1;
+  }
+}
+
+void FaceViews::space_line(const std::vector<Xyz>& line, const char* style) {
+  bool drawing = false, any = false;
+  std::string before = text_;
+  text_ += std::string("<path class=\"") + style + "\" d=\"";
+  for (size_t i = 0; i + 1 < line.size(); ++i) {
+    const bool hidden = depth_.hides(view_(0.5 * (line[i] + line[i + 1])), kHiddenSlack);
+    if (!hidden && !drawing) append_point('M', view_(line[i]));
+    if (!hidden) append_point('L', view_(line[i + 1]));
+    drawing = !hidden;
+    any = any || drawing;
+  }
+  text_ += "\"/>\n";
+  if (!any) text_ = std::move(before);
+}
+
+void FaceViews::plane_line(const std::vector<Uv>& line, const char* style) {
+  const UvBox& box = raster_.box;
+  const auto in_box = [&](Uv p) {
+    constexpr double kRounding = 1e-9;
+    const double du = kRounding * box.u.length(), dv = kRounding * box.v.length();
+    return p.u >= box.u.lo - du && p.u <= box.u.hi + du && p.v >= box.v.lo - dv && p.v <= box.v.hi + dv;
+  };
+  std::string path;
+  path.swap(text_);
+  bool drawing = false;
+  for (size_t i = 0; i + 1 < line.size(); ++i) {
+    const UvVec way = line[i + 1] - line[i];
+    const bool jump =
+        line.size() > 2 && (std::abs(way.u) > 0.6 * box.u.length() || std::abs(way.v) > 0.6 * box.v.length());
+    const bool shown = !jump && in_box(line[i]) && in_box(line[i + 1]);
+    if (shown && !drawing) append_point('M', on_plane(line[i]));
+    if (shown) append_point('L', on_plane(line[i + 1]));
+    drawing = shown;
+  }
+  path.swap(text_);
+  if (!path.empty()) text_ += std::string("<path class=\"") + style + "\" d=\"" + path + "\"/>\n";
+}
+
+void FaceViews::plane_copies(const std::vector<Uv>& line, double u_period, double v_period, const char* style) {
+  if (line.empty()) return;
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  UvBox reach{{kInf, -kInf}, {kInf, -kInf}};
+  for (const Uv p : line) {
+    reach.u = {std::min(reach.u.lo, p.u), std::max(reach.u.hi, p.u)};
+    reach.v = {std::min(reach.v.lo, p.v), std::max(reach.v.hi, p.v)};
+  }
+  struct Turns {
+    double first, last, period;
+  };
+  const auto turns = [](const Interval& of, const Interval& into, double period) {
+    if (!(period > 0.0)) return Turns{0.0, 0.0, 0.0};
+    return Turns{std::ceil((into.lo - of.hi) / period), std::floor((into.hi - of.lo) / period), period};
+  };
+  const Turns in_u = turns(reach.u, raster_.box.u, u_period), in_v = turns(reach.v, raster_.box.v, v_period);
+  for (double j = in_v.first; j <= in_v.last; ++j) {
+    for (double i = in_u.first; i <= in_u.last; ++i) {
+      text_ += std::string("<path class=\"") + style + "\" clip-path=\"url(#plane)\" d=\"";
+      for (size_t n = 0; n < line.size(); ++n) {
+        append_point(n == 0 ? 'M' : 'L', on_plane(line[n] + UvVec{i * in_u.period, j * in_v.period}));
+      }
+      text_ += "\"/>\n";
+    }
+  }
+}
+
+void FaceViews::append_dot(const PagePoint& p, const char* style, double radius) {
+  text_ += std::string("<circle class=\"") + style + "\" cx=\"";
+  append_number(p.x);
+  text_ += "\" cy=\"";
+  append_number(p.y);
+  text_ += "\" r=\"";
+  append_number(radius);
+  text_ += "\"/>\n";
+}
+
+void FaceViews::space_dot(const Xyz& p, const char* style, double radius) {
+  if (!depth_.hides(view_(p), kHiddenSlack)) append_dot(view_(p), style, radius);
+}
+
+void FaceViews::plane_dot(Uv p, const char* style, double radius) { append_dot(on_plane(p), style, radius); }
+
+}  // namespace geovor
