@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "geodesic/pole_passage.h"
 #include "numeric/dop853.h"
+#include "numeric/root.h"
 
 namespace geovor {
 namespace {
@@ -54,17 +57,67 @@ int sign_of(double x) { return (x > 0.0) - (x < 0.0); }
 GeodesicIntegrator::GeodesicIntegrator(const Surface& surface, Uv start, UvVec direction, double length,
                                        const TraceOptions& options)
     : surface_(surface),
+      charts_(surface.poles()),
       length_(length),
       options_(options),
       piece_(surface, start, direction, options.stop_at_domain),
-      x_(to_vector({start, direction, 0.0, 1.0})),
       cap_(kInf),
       reach_{{start.u, start.u}, {start.v, start.v}} {
   options_.tolerance = std::max(options.tolerance, kSmallestTolerance);
+  const PoleChart* chart = nullptr;
+  if (!charts_.empty()) {
+    const SurfaceJet j = surface.jet(start);
+    ++evaluations_;
+    chart = chart_near(start, j.S);
+    if (chart != nullptr) begin_on_chart(*chart, start, push_forward(j, direction));
+  }
+  if (chart == nullptr) begin(start, direction);
+}
+
+GeodesicIntegrator::GeodesicIntegrator(const Surface& surface, Uv start, const Xyz& tangent, double length,
+                                       const TraceOptions& options)
+    : surface_(surface),
+      charts_(surface.poles()),
+      length_(length),
+      options_(options),
+      piece_(surface, start, {}, options.stop_at_domain),
+      cap_(kInf),
+      reach_{{start.u, start.u}, {start.v, start.v}} {
+  options_.tolerance = std::max(options.tolerance, kSmallestTolerance);
+  const SurfaceJet j = surface.jet(start);
+  ++evaluations_;
+  if (const PoleChart* chart = chart_near(start, j.S)) {
+    begin_on_chart(*chart, start, tangent);
+    return;
+  }
+  // On a line between pieces the parameters' directions belong to the piece that the path runs into.
+  piece_ = Piece(surface, start, tangent_components(j, tangent), options.stop_at_domain);
+  begin(start, tangent_components(piece_.jet(surface, start), tangent));
+}
+
+void GeodesicIntegrator::begin(Uv start, UvVec direction) {
+  x_ = to_vector({start, direction, 0.0, 1.0});
   const SurfaceJet j = refresh();
-  const double speed = push_forward(j, direction).norm();  // the form would cancel where parameter lines are sheared
+  const double speed = length_of(direction);
+  if (!(speed > 0.0) || !slope_.allFinite()) {
+    status_ = TraceStatus::DegenerateMetric;
+    return;
+  }
   x_[2] /= speed;
   x_[3] /= speed;
+  begin_steps(j);
+}
+
+void GeodesicIntegrator::begin_on_chart(const PoleChart& chart, Uv start, const Xyz& tangent) {
+  chart_ = &chart;
+  base_ = start;
+  const Uv ab = chart.from_base(start);
+  const UvVec d = tangent_components(chart.jet(ab), tangent);
+  piece_ = Piece(chart, ab, d, false);
+  begin(ab, d);
+}
+
+void GeodesicIntegrator::begin_steps(const SurfaceJet& j) {
   slope_ = geodesic_slope(j, x_, normal_);
   if (!slope_.allFinite()) {
     status_ = TraceStatus::DegenerateMetric;
@@ -74,10 +127,22 @@ GeodesicIntegrator::GeodesicIntegrator(const Surface& surface, Uv start, UvVec d
   if (piece_.has_borders()) status_ = enter_piece();
 }
 
+const PoleChart* GeodesicIntegrator::chart_near(Uv p, const Xyz& S) const {
+  for (const auto& chart : charts_)
+    if (enters_chart(*chart, p, S)) return chart.get();
+  return nullptr;
+}
+
+const Surface& GeodesicIntegrator::map() const {
+  return chart_ != nullptr ? static_cast<const Surface&>(*chart_) : surface_;
+}
+
 SurfaceJet GeodesicIntegrator::refresh() {
   ++evaluations_;
-  const SurfaceJet j = piece_.jet(surface_, {x_[0], x_[1]});
-  metric_ = first_form(j);
+  const SurfaceJet j = piece_.jet(map(), {x_[0], x_[1]});
+  S_ = j.S;
+  Su_ = j.Su;
+  Sv_ = j.Sv;
   slope_ = geodesic_slope(j, x_, normal_);
   fresh_ = true;
   return j;
@@ -85,22 +150,22 @@ SurfaceJet GeodesicIntegrator::refresh() {
 
 GeodesicVector GeodesicIntegrator::slope_at(const GeodesicVector& x) {
   ++evaluations_;
-  return geodesic_slope(piece_.jet(surface_, {x[0], x[1]}), x, last_normal_);
+  return geodesic_slope(piece_.jet(map(), {x[0], x[1]}), x, last_normal_);
 }
 
 // Three lengths over which the equation changes: the radius of curvature, the reach of the parameterization (the
 // acceleration in the parameter plane), and the path.
 double GeodesicIntegrator::first_step(const SurfaceJet& j) const {
-  const double rate = std::max(curvatures(j).largest(), norm(metric_, {slope_[2], slope_[3]}));
+  const double rate = std::max(curvatures(j).largest(), length_of({slope_[2], slope_[3]}));
   const double h = kFirstStep * std::pow(options_.tolerance, 1.0 / dop853::kErrorOrder) / rate;
   return h < length_ ? h : length_;
 }
 
 BorderSlack GeodesicIntegrator::slack() const {
   constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
-  const double per_W = kBorderSlack * length_ / std::sqrt(metric_.W2());
-  return {{std::max(kRounding * std::abs(x_[0]), per_W * std::sqrt(metric_.G)),
-           std::max(kRounding * std::abs(x_[1]), per_W * std::sqrt(metric_.E))},
+  const double per_W = kBorderSlack * length_ / normal_.norm();
+  return {{std::max(kRounding * std::abs(x_[0]), per_W * Sv_.norm()),
+           std::max(kRounding * std::abs(x_[1]), per_W * Su_.norm())},
           kLook * length_};
 }
 
@@ -130,14 +195,53 @@ TraceStatus GeodesicIntegrator::advance(double s) {
 // Errors in position and y count relative to the length, those in the derivatives as the turn that carries over the
 // whole length.
 double GeodesicIntegrator::error_of(const GeodesicVector& e, double h) const {
-  const double place = norm(metric_, {e[0], e[1]}), turn = norm(metric_, {e[2], e[3]});
+  const double place = length_of({e[0], e[1]}), turn = length_of({e[2], e[3]});
   const double difference = std::max((place + std::abs(e[4])) / length_, turn + std::abs(e[5]));
   const double allowed = kAllowed * options_.tolerance * std::pow(h / length_, kShare);
   return dop853::error_estimate(difference) / allowed;
 }
 
+// Near a pole the path goes on in its chart: there the surface's own parameters turn ever faster.
+void GeodesicIntegrator::change_map() {
+  const Uv here = base_point();
+  const Xyz T = Su_ * x_[2] + Sv_ * x_[3];
+  if (chart_ == nullptr) {
+    const PoleChart* chart = chart_near(here, S_);
+    if (chart == nullptr) return;
+    chart_ = chart;
+    base_ = here;
+    const Uv ab = chart->from_base(here);
+    x_.head<2>() << ab.u, ab.v;
+  } else {
+    if (!leaves_chart(*chart_, x_)) return;
+    chart_ = nullptr;
+    x_.head<2>() << here.u, here.v;
+  }
+  const Uv p{x_[0], x_[1]};
+  const UvVec d = tangent_components(map().jet(p), T);
+  ++evaluations_;
+  x_[2] = d.u;
+  x_[3] = d.v;
+  piece_ = Piece(map(), p, d, chart_ == nullptr && options_.stop_at_domain);
+  refresh();
+}
+
+double GeodesicIntegrator::room() const {
+  if (chart_ != nullptr) return room_on_chart(*chart_, x_);
+  double room = kInf;
+  for (const auto& chart : charts_) room = std::min(room, room_before_pole(*chart, S_, Su_ * x_[2] + Sv_ * x_[3]));
+  return room;
+}
+
+// A step that failed: the next one shorter. False if that makes no way any more.
+bool GeodesicIntegrator::reject(double h, double factor, bool regular) {
+  next_h_ = h * (regular && factor > kShrink ? factor : kShrink);  // kShrink also for NaN
+  return next_h_ > kSmallestStep * length_;
+}
+
 TraceStatus GeodesicIntegrator::step(double remaining) {
   if (!fresh_) refresh();
+  if (!charts_.empty()) change_map();
   const bool bordered = piece_.has_borders();
   const BorderSlack beyond = bordered ? slack() : BorderSlack{};
   const Exit ahead = bordered ? predict_exit(piece_, x_, slope_, beyond) : Exit{};
@@ -147,21 +251,21 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
   }
   // Equal steps to the end rather than full ones and a short last one.
   const double even = remaining / std::ceil(remaining / (kStretch * next_h_));
-  const double h = std::min({even, ahead.s, cap_});
+  const double h = std::min({even, ahead.s, cap_, room()});
   cap_ = kInf;
   const auto trial = dop853::step(x_, slope_, h, [this](const GeodesicVector& x) { return slope_at(x); });
   const double error = error_of(trial.error5, h);
-  // The last stage stands at the step's end. A normal that has turned about there means a pole run over unseen.
+  // The last stage stands at the step's end. A normal that has turned about there means a singular line run over
+  // unseen.
   const bool regular = last_normal_.dot(normal_) > 0.0;
   const double factor = kSafety * std::pow(error, -1.0 / dop853::kErrorOrder);
-  if (!(error <= 1.0 && regular)) {
-    next_h_ = h * (regular && factor > kShrink ? factor : kShrink);  // kShrink also for NaN
-    return next_h_ > kSmallestStep * length_ ? TraceStatus::Converged : TraceStatus::DegenerateMetric;
-  }
+  if (!(error <= 1.0 && regular))
+    return reject(h, factor, regular) ? TraceStatus::Converged : TraceStatus::DegenerateMetric;
   worst_error_ = std::max(worst_error_, error);
   // A step cut short by a border or the end says little about how long one may be.
   next_h_ = std::max(h * std::min(factor, kGrow), h < next_h_ ? next_h_ : 0.0);
 
+  if (leaves_wedge(trial.state)) return stop_at_wedge(h);
   const Exit passed = bordered ? find_exit(piece_, x_, trial.state, h, beyond) : Exit{};
   if (!(passed.s < h) && h < ahead.s) {
     accept(trial.state, h);
@@ -176,6 +280,24 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
     accept(trial.state, h);
   }
   return TraceStatus::Converged;
+}
+
+bool GeodesicIntegrator::leaves_wedge(const GeodesicVector& x) const {
+  return chart_ != nullptr && options_.stop_at_domain && beyond_wedge(surface_, *chart_, {x[0], x[1]}) > 0.0;
+}
+
+// The border of the wedge is a line on the chart that only to_base knows.
+TraceStatus GeodesicIntegrator::stop_at_wedge(double h) {
+  const auto end = [this](double s) {
+    return s == 0.0 ? x_ : dop853::step(x_, slope_, s, [this](const GeodesicVector& x) { return slope_at(x); }).state;
+  };
+  const auto beyond = [&](double s) {
+    const GeodesicVector x = end(s);
+    return beyond_wedge(surface_, *chart_, {x[0], x[1]});
+  };
+  const double s = root_between(beyond, 0.0, h, kBorderSlack * length_);
+  if (s > 0.0) accept(end(s), s);
+  return TraceStatus::LeftDomain;
 }
 
 // From a point close to the border, on either side, to the border by a classical Runge-Kutta step along the parabola's
@@ -206,7 +328,8 @@ TraceStatus GeodesicIntegrator::cross(const Border& border) {
   if (options_.stop_at_domain && piece_.ends_domain(border)) return TraceStatus::LeftDomain;
   const SurfaceJet before = surface_.continuity() == 0 ? piece_.jet(surface_, {x_[0], x_[1]}) : SurfaceJet{};
   piece_ = Piece(surface_, {x_[0], x_[1]}, {x_[2], x_[3]}, options_.stop_at_domain);
-  if (surface_.continuity() == 0) refract(border, before);
+  const double bend = surface_.continuity() == 0 ? refract(border, before) : 0.0;
+  if (record_ != nullptr) record_->crossings.push_back({covered_, {x_[0], x_[1]}, border, bend});
   refresh();
   return slope_.allFinite() ? enter_piece() : TraceStatus::DegenerateMetric;
 }
@@ -214,7 +337,7 @@ TraceStatus GeodesicIntegrator::cross(const Border& border) {
 // Across a crease the path goes on straight in the unfolding of the two tangent planes: its angle to the crease is
 // kept. The crease carries the curvature kg_before + kg_after a unit of its length (Gauss-Bonnet on a strip about it,
 // kg its geodesic curvature seen from either side), and a beam of width y covers y / sin(angle) of it.
-void GeodesicIntegrator::refract(const Border& border, const SurfaceJet& before) {
+double GeodesicIntegrator::refract(const Border& border, const SurfaceJet& before) {
   const SurfaceJet after = piece_.jet(surface_, {x_[0], x_[1]});
   ++evaluations_;
   const bool along_v = border.axis == 0;
@@ -236,19 +359,40 @@ void GeodesicIntegrator::refract(const Border& border, const SurfaceJet& before)
   const double bend_scale = along(before).squaredNorm();
   const double curvature = (bend(before).dot(m_before) + bend(after).dot(m_after)) / bend_scale;
   x_[5] -= x_[4] * curvature / sine;
+  return std::atan2(unit_normal(before).cross(unit_normal(after)).norm(), unit_normal(before).dot(unit_normal(after)));
+}
+
+void GeodesicIntegrator::widen(Interval u, Interval v) {
+  reach_ = {{std::min(reach_.u.lo, u.lo), std::max(reach_.u.hi, u.hi)},
+            {std::min(reach_.v.lo, v.lo), std::max(reach_.v.hi, v.hi)}};
 }
 
 void GeodesicIntegrator::accept(const GeodesicVector& x, double h) {
   fresh_ = false;
-  for (int axis = 0; axis < 2; ++axis) {
-    Interval& reach = axis == 0 ? reach_.u : reach_.v;
-    const Interval step = swept(x_[axis], x[axis], x_[axis + 2], x[axis + 2], h);
-    reach = {std::min(reach.lo, step.lo), std::max(reach.hi, step.hi)};
+  if (record_ != nullptr) record_->legs.push_back({covered_, h, x_, slope_, piece_, chart_, base_point()});
+  if (chart_ != nullptr) {
+    base_ = unwound(surface_, *chart_, x_, base_, x);
+    widen({base_.u, base_.u}, {base_.v, base_.v});
+  } else {
+    widen(swept(x_[0], x[0], x_[2], x[2], h), swept(x_[1], x[1], x_[3], x[3], h));
   }
   x_ = x;
   covered_ += h;
 }
 
-GeodesicState GeodesicIntegrator::state() const { return to_state(x_); }
+GeodesicState GeodesicIntegrator::state() const {
+  if (chart_ == nullptr) return to_state(x_);
+  const SpaceState here = at();
+  return {base_, direction_near_pole(surface_, *chart_, base_, here.tangent), here.y, here.dy};
+}
+
+SpaceState GeodesicIntegrator::at() const {
+  const SurfaceJet j = piece_.jet(map(), {x_[0], x_[1]});
+  return {j.S, push_forward(j, {x_[2], x_[3]}).normalized(), unit_normal(j), x_[4], x_[5], base_point()};
+}
+
+SurfaceJet GeodesicIntegrator::jet() const {
+  return chart_ == nullptr ? piece_.jet(surface_, {x_[0], x_[1]}) : surface_.jet(base_);
+}
 
 }  // namespace geovor

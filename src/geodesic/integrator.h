@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geodesic/geodesic_equation.h"
+#include "geodesic/path_leg.h"
 #include "geodesic/piece.h"
 #include "surface/forms.h"
 
@@ -13,11 +14,21 @@ class GeodesicIntegrator {
   /// Ready at `start`, y = 0. `length` is the whole length that will be asked for: errors are shared out over it.
   GeodesicIntegrator(const Surface& surface, Uv start, UvVec direction, double length, const TraceOptions& options);
 
+  /// The same with the direction as a vector in space, of any length; its part in the tangent plane counts. At a pole
+  /// this is the way to tell a direction (see tangent_frame).
+  GeodesicIntegrator(const Surface& surface, Uv start, const Xyz& tangent, double length, const TraceOptions& options);
+
   /// Goes on to arc length `s` from the start; Converged if it gets there. Once it has failed it stays where it is.
   TraceStatus advance(double s);
 
   GeodesicState state() const;
-  SurfaceJet jet() const { return piece_.jet(surface_, {x_[0], x_[1]}); }  ///< at the state
+
+  /// The state in space, exact at a pole too.
+  SpaceState at() const;
+
+  /// The surface's jet at the state.
+  SurfaceJet jet() const;
+
   double covered() const { return covered_; }
   int steps() const { return steps_; }
   int evaluations() const { return evaluations_; }
@@ -28,28 +39,48 @@ class GeodesicIntegrator {
   /// Smallest box of the parameter plane that holds the path so far (to the accuracy of a cubic on each step).
   const UvBox& reach() const { return reach_; }
 
+  /// From now on every step and every line crossed is added to `record`, which outlives the integrator.
+  void keep(PathRecord* record) { record_ = record; }
+
  private:
+  void begin(Uv start, UvVec direction);
+  void begin_on_chart(const PoleChart& chart, Uv start, const Xyz& tangent);
+  void begin_steps(const SurfaceJet& j);
+  const PoleChart* chart_near(Uv p, const Xyz& S) const;
+  const Surface& map() const;
+  Uv base_point() const { return chart_ == nullptr ? Uv{x_[0], x_[1]} : base_; }
   GeodesicVector slope_at(const GeodesicVector& x);
   SurfaceJet refresh();
+  double length_of(UvVec d) const { return (d.u * Su_ + d.v * Sv_).norm(); }
   double first_step(const SurfaceJet& j) const;
+  void change_map();
+  double room() const;
   TraceStatus enter_piece();
   TraceStatus step(double remaining);
+  bool reject(double h, double factor, bool regular);
   double error_of(const GeodesicVector& difference, double h) const;
   BorderSlack slack() const;
+  bool leaves_wedge(const GeodesicVector& x) const;
+  TraceStatus stop_at_wedge(double h);
   bool land(const Border& border, GeodesicVector x, const GeodesicVector& slope, double s, double remaining);
   TraceStatus cross(const Border& border);
-  void refract(const Border& border, const SurfaceJet& before);
+  double refract(const Border& border, const SurfaceJet& before);
   void accept(const GeodesicVector& x, double h);
+  void widen(Interval u, Interval v);
 
   const Surface& surface_;
+  const PoleCharts& charts_;
   double length_;
   TraceOptions options_;
+  const PoleChart* chart_ = nullptr;  ///< in whose coordinates x_ is; none: in the surface's parameters
   Piece piece_;
   GeodesicVector x_, slope_;
+  Uv base_;              ///< the surface's parameters, while in a chart
+  Xyz S_ = Xyz::Zero();  ///< at x_
+  Xyz Su_ = Xyz::Zero(), Sv_ = Xyz::Zero();
   Xyz normal_ = Xyz::Zero();       ///< Su x Sv at x_
   Xyz last_normal_ = Xyz::Zero();  ///< at the last place where the slope was evaluated
-  FirstForm metric_{};             ///< at x_
-  bool fresh_ = false;             ///< slope_ and metric_ belong to x_
+  bool fresh_ = false;             ///< slope_ and the jet's parts belong to x_
   double next_h_ = 0.0;            ///< that the error control proposes
   double cap_;                     ///< the next step alone may not be longer: a border is known to lie there
   double covered_ = 0.0;
@@ -58,6 +89,7 @@ class GeodesicIntegrator {
   int evaluations_ = 0;
   UvBox reach_;
   TraceStatus status_ = TraceStatus::Converged;
+  PathRecord* record_ = nullptr;
 };
 
 }  // namespace geovor

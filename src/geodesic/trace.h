@@ -16,11 +16,21 @@ struct GeodesicState {
   double dy = 1.0;
 };
 
+/// The same point in space.
+struct SpaceState {
+  Xyz S;
+  Xyz tangent;  ///< unit
+  Xyz normal;   ///< unit, along Su x Sv
+  double y = 0.0;
+  double dy = 1.0;
+  Uv p;  ///< run on over seams
+};
+
 enum class TraceStatus {
   Converged,         ///< the whole length was covered
   LeftDomain,        ///< the geodesic met the border of the surface's domain; the state is the last point inside
   StepLimit,         ///< too many steps (see TraceOptions::max_steps): the state is the last accepted one
-  DegenerateMetric,  ///< EG - F^2 vanished or became NaN near the state: a pole or a collapsed side
+  DegenerateMetric,  ///< the tangent plane is lost at the state: a side that is one point but no pole, a fold, a tip
 };
 
 struct TraceOptions {

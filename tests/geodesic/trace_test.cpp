@@ -207,8 +207,6 @@ TEST(TraceGeodesic, StopsOnTheBorderOfTheDomain) {
 
 TEST(TraceGeodesic, StopsWhereTheMetricVanishes) {
   const Ellipsoid ellipsoid(1.0, 1.0, 0.8);
-  const TraceResult at = trace_geodesic(ellipsoid, {0.0, kPi / 2.0}, {1.0, 0.0}, 1.0);
-  EXPECT_NE(at.status, TraceStatus::Converged);
   const Cone cone({}, 1.0, 0.5);
   const TraceResult into = trace_geodesic(cone, {0.0, 0.0}, {0.0, -1.0}, 3.0);
   EXPECT_EQ(into.status, TraceStatus::DegenerateMetric);
