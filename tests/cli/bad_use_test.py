@@ -140,6 +140,12 @@ class BadCommandLine(ProgramTest):
     def test_a_range_of_faces_that_runs_backwards(self):
         self.mesh_fails("write 2-9", "--size", 5, "-o", "out.stl", "--faces", "9-2")
 
+    def test_a_list_of_faces_that_is_empty(self):
+        self.mesh_fails("'' names no face", "--size", 5, "-o", "out.stl", "--faces", "")
+
+    def test_a_report_of_another_ending(self):
+        self.mesh_fails("report.stl: the ending '.stl'", "--size", 5, "-o", "out.stl", "--report", "report.stl")
+
 
 class BadOutput(ProgramTest):
     def mesh_fails(self, words, *arguments):

@@ -10,7 +10,7 @@ class Help(ProgramTest):
 
     def test_help_names_every_command(self):
         text = self.succeed("--help")
-        for command in ("info", "mesh", "voronoi"):
+        for command in ("info", "mesh", "voronoi", "distance"):
             self.assertIn(f"\n  {command} ", text)
 
     def test_help_tells_the_exit_codes(self):
@@ -25,6 +25,11 @@ class Help(ProgramTest):
     def test_help_of_voronoi_names_its_options(self):
         text = self.succeed("voronoi", "--help")
         for option in ("--face", "--sites", "--count", "--seed", "-o"):
+            self.assertIn(option, text)
+
+    def test_help_of_distance_names_its_options(self):
+        text = self.succeed("distance", "--help")
+        for option in ("--face", "--from", "--to", "--snap", "-o"):
             self.assertIn(option, text)
 
     def test_help_of_info_names_its_options(self):
