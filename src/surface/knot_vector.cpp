@@ -111,6 +111,10 @@ void KnotVector::index_spans() {
     while (k + 1 < buckets && lines_[k + 1] <= left) ++k;
     bucket_.push_back(k);
   }
+  for (int b = 0; b < buckets; ++b) {
+    const int middle = line_below(domain_.lo + (b + 0.5) / buckets_per_unit_);
+    guess_.push_back({lines_[middle], lines_[middle + 1], span_of_line_[middle]});
+  }
 }
 
 int KnotVector::continuity(int smooth) const {
@@ -139,7 +143,7 @@ int KnotVector::line_below(double x) const {
   return lo;
 }
 
-KnotSpan KnotVector::find(double x, double towards) const {
+KnotSpan KnotVector::search(double x, double towards) const {
   const int spans = static_cast<int>(span_of_line_.size());
   KnotSpan span;
   if (periodic_ && !domain_.contains(x)) {

@@ -48,7 +48,15 @@ class KnotVector {
 
   /// The span that holds x; on a knot (to rounding) the one into which the sign of `towards` points, the right one if
   /// that is 0. Outside a domain that is not periodic: the outermost span.
-  KnotSpan find(double x, double towards) const;
+  KnotSpan find(double x, double towards) const {
+    // Mostly x lies inside the span in the middle of its bucket.
+    const double place = (x - domain_.lo) * buckets_per_unit_;
+    if (place >= 0.0 && place < static_cast<int>(guess_.size())) {
+      const Guess& guess = guess_[static_cast<int>(place)];
+      if (x - guess.lo > rounding_ && guess.hi - x > rounding_) return {guess.span, 0.0};
+    }
+    return search(x, towards);
+  }
 
   /// Borders of a span around the parameter asked for: infinite where a domain that is not periodic ends, so that the
   /// outermost span holds everything beyond.
@@ -70,7 +78,13 @@ class KnotVector {
  private:
   void unroll(const std::vector<double>& knots, const std::vector<int>& multiplicities);
   void index_spans();
+  KnotSpan search(double x, double towards) const;
   int line_below(double x) const;
+
+  struct Guess {
+    double lo, hi;
+    int span;  // flat index
+  };
 
   int degree_;
   bool periodic_;
@@ -82,6 +96,7 @@ class KnotVector {
   std::vector<int> span_of_line_;  // flat index of the span that begins at lines_[k]
   std::vector<int> multiplicity_;  // of lines_[k]
   std::vector<int> bucket_;        // greatest k with lines_[k] <= left end of the bucket
+  std::vector<Guess> guess_;       // the span that holds the middle of the bucket
   double buckets_per_unit_ = 0.0;
   std::vector<int> row_of_span_;  // by flat index: row of reciprocals_
   int reciprocal_stride_ = 0;
