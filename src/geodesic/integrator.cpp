@@ -182,12 +182,20 @@ TraceStatus GeodesicIntegrator::enter_piece() {
   return TraceStatus::Converged;
 }
 
-TraceStatus GeodesicIntegrator::advance(double s) {
+bool GeodesicIntegrator::advance_step(double s) {
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
-  while (status_ == TraceStatus::Converged && s - covered_ > kRounding * s) {
-    if (steps_ >= options_.max_steps) return status_ = TraceStatus::StepLimit;
-    ++steps_;
-    status_ = step(s - covered_);
+  if (!(status_ == TraceStatus::Converged && s - covered_ > kRounding * s)) return false;
+  if (steps_ >= options_.max_steps) {
+    status_ = TraceStatus::StepLimit;
+    return false;
+  }
+  ++steps_;
+  status_ = step(s - covered_);
+  return true;
+}
+
+TraceStatus GeodesicIntegrator::advance(double s) {
+  while (advance_step(s)) {
   }
   return status_;
 }
@@ -369,7 +377,7 @@ void GeodesicIntegrator::widen(Interval u, Interval v) {
 
 void GeodesicIntegrator::accept(const GeodesicVector& x, double h) {
   fresh_ = false;
-  if (record_ != nullptr) record_->legs.push_back({covered_, h, x_, slope_, piece_, chart_, base_point()});
+  if (record_ != nullptr) record_->legs.push_back({covered_, h, x_, slope_, x, piece_, chart_, base_point()});
   if (chart_ != nullptr) {
     base_ = unwound(surface_, *chart_, x_, base_, x);
     widen({base_.u, base_.u}, {base_.v, base_.v});

@@ -21,6 +21,10 @@ class GeodesicIntegrator {
   /// Goes on to arc length `s` from the start; Converged if it gets there. Once it has failed it stays where it is.
   TraceStatus advance(double s);
 
+  /// The same by one step, accepted or not; false if there is nothing more to do.
+  bool advance_step(double s);
+
+  TraceStatus status() const { return status_; }
   GeodesicState state() const;
 
   /// The state in space, exact at a pole too.

@@ -13,6 +13,7 @@ struct PathLeg {
   double s = 0.0;  ///< arc length at its start
   double h = 0.0;
   GeodesicVector x, slope;           ///< at its start, in the coordinates of the piece
+  GeodesicVector end;                ///< the state at its end, in the same coordinates
   Piece piece;                       ///< of the surface, or of the chart
   const PoleChart* chart = nullptr;  ///< of which x are coordinates; none: they are parameters of the surface
   Uv start;                          ///< the surface's parameters at its start

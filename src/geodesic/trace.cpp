@@ -5,9 +5,13 @@
 #include "base/error.h"
 #include "geodesic/closed_forms.h"
 #include "geodesic/integrator.h"
+#include "geodesic/path.h"
 
 namespace geovor {
 namespace {
+
+// Sums of steps reach the length asked for to this.
+constexpr double kRounding = 1e-14;
 
 void check_length(double length) {
   if (!(length >= 0.0) || !std::isfinite(length))
@@ -28,19 +32,13 @@ TraceResult trace_geodesic(const Surface& surface, Uv start, UvVec direction, do
 std::vector<GeodesicState> sample_geodesic(const Surface& surface, Uv start, UvVec direction, double length, int count,
                                            const TraceOptions& options) {
   check_length(length);
+  PathOptions path_options;
+  path_options.trace = options;
+  const GeodesicPath path(surface, start, direction, length, path_options);
   std::vector<GeodesicState> samples;
   samples.reserve(count + 1);
-  if (has_closed_form(surface)) {
-    for (int i = 0; i <= count; ++i)
-      samples.push_back(trace_closed_form(surface, start, direction, length * i / count)->end);
-    return samples;
-  }
-  GeodesicIntegrator path(surface, start, direction, length, options);
-  samples.push_back(path.state());
-  for (int i = 1; i <= count; ++i) {
-    if (path.advance(length * i / count) != TraceStatus::Converged) break;
-    samples.push_back(path.state());
-  }
+  for (int i = 0; i <= count && (i == 0 || length * i / count <= path.length() * (1.0 + kRounding)); ++i)
+    samples.push_back(path.state(length * i / count));
   return samples;
 }
 

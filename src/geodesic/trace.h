@@ -29,6 +29,7 @@ struct SpaceState {
 enum class TraceStatus {
   Converged,         ///< the whole length was covered
   LeftDomain,        ///< the geodesic met the border of the surface's domain; the state is the last point inside
+  AtConjugatePoint,  ///< a path that was to stop at the first conjugate point did (geodesic/path.h)
   StepLimit,         ///< too many steps (see TraceOptions::max_steps): the state is the last accepted one
   DegenerateMetric,  ///< the tangent plane is lost at the state: a side that is one point but no pole, a fold, a tip
 };
