@@ -185,7 +185,7 @@ void DistanceFinder::search_far(Uv from, Uv to, DistanceResult& result) const {
   double bound =
       result.candidates.empty() ? length_of(surface, {from, lerp(from, to, 0.5), to}) : result.shortest.length;
   std::vector<Uv> rough;
-  if (options_.grid > 0 && bound > kDirect * (ends.at_to.S - ends.at_from.S).norm()) {
+  if (options_.grid > 0 && bound > kDirect * ends.chord()) {
     rough = rough_path(surface, ends, bound, options_.grid);
     if (!rough.empty()) bound = std::min(bound, kRough * length_of(surface, rough));
   }

@@ -63,7 +63,11 @@ double y_at(const Ray& ray, double s) {
 class Search {
  public:
   Search(const Surface& surface, Uv from, Uv to, double length)
-      : surface_(surface), from_(from), at_from_(surface.jet(from)), target_(surface.position(to)), length_(length) {
+      : surface_(surface),
+        from_(from),
+        frame_(tangent_frame(surface, from)),
+        target_(surface.position(to)),
+        length_(length) {
     const UvBox d = surface.domain();
     const auto widened = [](Interval x) {
       return Interval{x.lo - kBeyondBorder * x.length(), x.hi + kBeyondBorder * x.length()};
@@ -76,7 +80,7 @@ class Search {
  private:
   const Ray& ray(int index);
   Ray follow(double t);
-  std::optional<Sample> sample(const GeodesicIntegrator& path) const;
+  std::optional<Sample> sample(const GeodesicIntegrator& path, const Ray& ray) const;
   bool outside(Uv p) const;
   bool close(const Ray& ray, const Ray& next) const;
   void refine(int index, int next, int halvings);
@@ -87,7 +91,7 @@ class Search {
 
   const Surface& surface_;
   Uv from_;
-  SurfaceJet at_from_;
+  TangentFrame frame_;
   Xyz target_;
   double length_;
   UvBox rim_;
@@ -101,13 +105,15 @@ bool Search::outside(Uv p) const {
   return u || v;
 }
 
-std::optional<Sample> Search::sample(const GeodesicIntegrator& path) const {
-  const SurfaceJet j = path.jet();
-  const GeodesicState state = path.state();
-  const double step =
-      std::clamp(kSampleStep / curvatures(j).largest(), length_ / kMostSamples, length_ / kFewestSamples);
-  const Sample x{path.covered(), j.S, push_forward(j, state.d), unit_normal(j), state.y, state.dy, step};
-  if (!(x.X.allFinite() && x.T.allFinite() && x.n.allFinite() && std::isfinite(step))) return std::nullopt;
+// Where the parameters do not tell the curvature, at a pole, the step is that of the sample before.
+std::optional<Sample> Search::sample(const GeodesicIntegrator& path, const Ray& ray) const {
+  const SpaceState at = path.at();
+  const double k = curvatures(path.jet()).largest();
+  const double shortest = length_ / kMostSamples, longest = length_ / kFewestSamples;
+  const double before = ray.samples.empty() ? longest : ray.samples.back().step;
+  const double step = std::isfinite(k) ? std::clamp(kSampleStep / k, shortest, longest) : before;
+  const Sample x{path.covered(), at.S, at.tangent, at.normal, at.y, at.dy, step};
+  if (!(x.X.allFinite() && x.T.allFinite() && x.n.allFinite())) return std::nullopt;
   return x;
 }
 
@@ -118,9 +124,9 @@ Ray Search::follow(double t) {
   options.stop_at_domain = false;
   options.max_steps = 2 * kMostSamples;
   const double end = kBeyond * length_;
-  GeodesicIntegrator path(surface_, from_, tangent_components(at_from_, tangent_at_angle(at_from_, t)), end, options);
+  GeodesicIntegrator path(surface_, from_, frame_.at_angle(t), end, options);
   for (int i = 0; i < kMostSamples; ++i) {
-    const auto x = sample(path);
+    const auto x = sample(path, ray);
     if (!x) break;
     ray.samples.push_back(*x);
     const bool conjugate = x->s > 0.0 && !(x->y > 0.0);

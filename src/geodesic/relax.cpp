@@ -110,7 +110,7 @@ Positions positions(const Surface& surface, const std::vector<Uv>& nodes) {
 
 Polar start_of(const Rule& rule, const Model& model, const Ends& ends) {
   const Xyz velocity = (rule.lobatto.derivative.row(0) * model.r).transpose();
-  return {std::sqrt(2.0 * model.value), angle_of_tangent(ends.at_from, velocity)};
+  return {std::sqrt(2.0 * model.value), ends.start.angle_of(velocity)};
 }
 
 std::vector<Uv> refined(const std::vector<Uv>& nodes, const LobattoRule& coarse, const LobattoRule& fine) {

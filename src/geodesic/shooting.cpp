@@ -44,8 +44,7 @@ Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance,
   options.tolerance = tolerance;
   options.max_steps = max_steps;
   options.stop_at_domain = false;
-  const UvVec d = tangent_components(ends.at_from, tangent_at_angle(ends.at_from, aim.t));
-  GeodesicIntegrator path(surface, ends.from, d, aim.s, options);
+  GeodesicIntegrator path(surface, ends.from, ends.start.at_angle(aim.t), aim.s, options);
   Shot shot;
   shot.aim = aim;
   shot.status = path.advance(aim.s);
@@ -53,11 +52,11 @@ Shot fire(const Surface& surface, const Ends& ends, Polar aim, double tolerance,
   shot.reach = path.reach();
   shot.asked = tolerance;
   shot.tolerance = std::min(path.tolerance_met(), tolerance);
-  const SurfaceJet j = path.jet();
+  const SpaceState end = path.at();
   evaluations += path.evaluations() + 1;
-  shot.tangent = push_forward(j, shot.state.d).normalized();
-  shot.across = unit_normal(j).cross(shot.tangent);
-  const Xyz missing = ends.at_to.S - j.S;
+  shot.tangent = end.tangent;
+  shot.across = end.normal.cross(end.tangent);
+  const Xyz missing = ends.at_to.S - end.S;
   shot.a = missing.dot(shot.tangent);
   shot.b = missing.dot(shot.across);
   shot.residual = missing.norm();
@@ -140,37 +139,57 @@ bool leaves(const Surface& surface, const UvBox& reach, const Ends& ends, double
   return out_u || out_v;
 }
 
-// The connection that ends at the target: the shot, moved by the step that it lacks.
+// The direction in the parameter plane; zero at a pole, where there is none.
+UvVec direction_of(const SurfaceJet& j, const Xyz& tangent) {
+  const UvVec d = tangent_components(j, tangent);
+  const double speed = push_forward(j, d).norm();
+  return is_finite(d) && speed > 0.0 ? (1.0 / speed) * d : UvVec{};
+}
+
+// The connection that ends at the target: the shot, moved by the step that it lacks. Where all geodesics meet (y = 0)
+// the step's turn is noise.
 Connection corrected(const Surface& surface, const Ends& ends, const Shot& shot, double y_slope) {
-  const Polar step = newton_step(shot), aim = shot.aim;
+  constexpr double kNoTurn = 1e-3;
+  const Polar aim = shot.aim;
+  Polar step = newton_step(shot);
+  if (!(std::abs(step.t) < kNoTurn)) step = {shot.a, 0.0};
   Connection c;
   c.status = ConnectStatus::Converged;
   c.length = aim.s + step.s;
   c.angle = std::remainder(aim.t + step.t, 2.0 * M_PI);
-  c.start_direction = tangent_components(ends.at_from, tangent_at_angle(ends.at_from, c.angle));
-  const UvVec end = tangent_components(ends.at_to, shot.tangent + step.t * shot.state.dy * shot.across);
-  c.end_direction = (1.0 / push_forward(ends.at_to, end).norm()) * end;
+  c.start_direction = direction_of(ends.at_from, ends.start.at_angle(c.angle));
+  c.end_direction = direction_of(ends.at_to, shot.tangent + step.t * shot.state.dy * shot.across);
   c.y = shot.state.y + shot.a * shot.state.dy + y_slope * step.t;
   c.residual = shot.residual * shot.residual / c.length;
   c.leaves_domain = leaves(surface, shot.reach, ends, c.length);
   return c;
 }
 
+// tangent_frame, without its second jet where the first will do.
+TangentFrame frame_at(const Surface& surface, Uv p, const SurfaceJet& j) {
+  constexpr double kSheared = 1e-3;
+  const Xyz n = j.Su.cross(j.Sv);
+  const double su = j.Su.norm(), sv = j.Sv.norm(), W = n.norm();
+  if (!(W > kSheared * std::max(su, sv) * std::max(su, sv))) return tangent_frame(surface, p);
+  TangentFrame f{j.S, j.Su / su, {}, n / W};
+  f.e2 = f.n.cross(f.e1);
+  return f;
+}
+
 }  // namespace
 
 Ends::Ends(const Surface& surface, Uv from_point, Uv to_point)
-    : from(from_point), to(to_point), at_from(surface.jet(from_point)), at_to(surface.jet(to_point)) {
-  curvature = std::max(curvatures(at_from).largest(), curvatures(at_to).largest());
-}
-
-Xyz tangent_at_angle(const SurfaceJet& j, double t) {
-  const Xyz e1 = j.Su.normalized();
-  return std::cos(t) * e1 + std::sin(t) * unit_normal(j).cross(e1);
-}
-
-double angle_of_tangent(const SurfaceJet& j, const Xyz& w) {
-  const Xyz e1 = j.Su.normalized();
-  return std::atan2(w.dot(unit_normal(j).cross(e1)), w.dot(e1));
+    : from(from_point),
+      to(to_point),
+      at_from(surface.jet(from_point)),
+      at_to(surface.jet(to_point)),
+      start(frame_at(surface, from_point, at_from)),
+      finish(frame_at(surface, to_point, at_to)),
+      curvature(0.0) {
+  for (const SurfaceJet* j : {&at_from, &at_to}) {
+    const double k = curvatures(*j).largest();
+    if (std::isfinite(k)) curvature = std::max(curvature, k);
+  }
 }
 
 Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const ConnectOptions& options) {
@@ -217,7 +236,7 @@ Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const Co
 // With T the tangent, B = n x T and II the second form, x'' = II(T,T) n and x''' . B = -II(T,T) II(T,B), so the chord c
 // of a path of length s has c . B = s^3 x'''/6 (taken at s/4, the centre of the integral's weight) and |c| = s - s^3
 // k^2/24.
-std::optional<Polar> guess_from_chord(const Ends& ends) {
+std::optional<ChordGuess> guess_from_chord(const Ends& ends) {
   constexpr double kGuided = 0.7;      // curvature radii
   constexpr double kComparable = 4.0;  // of the parameter line's length to the chord's
   const Xyz chord = ends.at_to.S - ends.at_from.S;
@@ -225,25 +244,39 @@ std::optional<Polar> guess_from_chord(const Ends& ends) {
   const UvVec way = ends.to - ends.from;
   const double line = 0.5 * (push_forward(ends.at_from, way).norm() + push_forward(ends.at_to, way).norm());
   if (!(c > 0.0 && c * ends.curvature < kGuided && line < kComparable * c)) return std::nullopt;
-  double bend = 0.0, twist = 0.0;
-  for (const SurfaceJet* j : {&ends.at_from, &ends.at_to}) {
-    const Xyz n = unit_normal(*j);
-    const Xyz T = (chord - chord.dot(n) * n).normalized();
-    const UvVec t = tangent_components(*j, T), b = tangent_components(*j, n.cross(T));
-    const auto [L, M, N] = second_form(*j);
+  struct Bend {
+    Xyz T, B;
+    double along, twist;
+  };
+  const auto bend_of = [&chord](const SurfaceJet& j) -> Bend {
+    const Xyz n = unit_normal(j), T = (chord - chord.dot(n) * n).normalized(), B = n.cross(T);
+    const UvVec t = tangent_components(j, T), b = tangent_components(j, B);
+    const auto [L, M, N] = second_form(j);
     const double along = L * t.u * t.u + 2.0 * M * t.u * t.v + N * t.v * t.v;
-    const double across = L * t.u * b.u + M * (t.u * b.v + t.v * b.u) + N * t.v * b.v;
-    bend += 0.5 * along;
-    twist += (j == &ends.at_from ? 0.75 : 0.25) * along * across;
-  }
-  return Polar{c * (1.0 + bend * bend * c * c / 24.0), angle_of_tangent(ends.at_from, chord) + twist * c * c / 6.0};
+    return {T, B, along, along * (L * t.u * b.u + M * (t.u * b.v + t.v * b.u) + N * t.v * b.v)};
+  };
+  const Bend first = bend_of(ends.at_from), last = bend_of(ends.at_to);
+  const double along = 0.5 * (first.along + last.along), length = c * (1.0 + along * along * c * c / 24.0);
+  const auto turned = [&](const Bend& near, const Bend& far) -> Xyz {
+    const double turn = (0.75 * near.twist + 0.25 * far.twist) * c * c / 6.0;
+    return length * (near.T + turn * near.B).normalized();
+  };
+  const ChordGuess guess{turned(first, last), turned(last, first)};
+  if (!(guess.first.allFinite() && guess.last.allFinite())) return std::nullopt;
+  return guess;
 }
+
+Polar polar_of(const Ends& ends, const ChordGuess& guess) {
+  return {guess.first.norm(), ends.start.angle_of(guess.first)};
+}
+
+Polar guess_across(const Ends& ends) { return {ends.chord(), ends.start.angle_of(ends.at_to.S - ends.at_from.S)}; }
 
 Polar guess_from_parameters(const Surface& surface, const Ends& ends) {
   const UvVec way = ends.to - ends.from;
   const double middle = push_forward(surface.jet(lerp(ends.from, ends.to, 0.5)), way).norm();
   const double first = push_forward(ends.at_from, way).norm(), last = push_forward(ends.at_to, way).norm();
-  return {(first + 4.0 * middle + last) / 6.0, angle_of_tangent(ends.at_from, push_forward(ends.at_from, way))};
+  return {(first + 4.0 * middle + last) / 6.0, ends.start.angle_of(push_forward(ends.at_from, way))};
 }
 
 }  // namespace geovor

@@ -110,7 +110,7 @@ TEST(Connect, AGuessSavesEvaluations) {
   std::mt19937 random(8);
   int cold_evaluations = 0, warm_evaluations = 0;
   for (int i = 0; i < 30; ++i) {
-    const Uv p = random_point(random, kSquare), q{p.u + 0.8, p.v + uniform(random, -0.8, 0.8)};
+    const Uv p = random_point(random, kSquare), q{p.u + 2.5, p.v + uniform(random, -0.8, 0.8)};
     const Uv near{q.u + 1e-4, q.v - 1e-4};
     const Connection known = connect(wave, p, q), cold = connect(wave, p, near);
     const Connection warm = connect(wave, p, near, Polar{known.length, known.angle});
