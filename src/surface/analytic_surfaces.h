@@ -20,7 +20,12 @@ class GraphSurface : public Surface {
             {0.0, 0.0, h.fuu}, {0.0, 0.0, h.fuv}, {0.0, 0.0, h.fvv}};
   }
   using Surface::jet;
+  SurfaceThirds third(Uv p, const Span&) const final {
+    const HeightThirds h = height_thirds(p);
+    return {{0.0, 0.0, h.fuuu}, {0.0, 0.0, h.fuuv}, {0.0, 0.0, h.fuvv}, {0.0, 0.0, h.fvvv}};
+  }
   virtual HeightJet height(Uv p) const = 0;
+  virtual HeightThirds height_thirds(Uv p) const = 0;
 
  private:
   UvBox domain_;
@@ -31,6 +36,7 @@ class WaveSurface final : public GraphSurface {
  public:
   using GraphSurface::GraphSurface;
   HeightJet height(Uv p) const override;
+  HeightThirds height_thirds(Uv p) const override;
 };
 
 /// z = u^2 + v^2.
@@ -38,6 +44,7 @@ class Paraboloid final : public GraphSurface {
  public:
   using GraphSurface::GraphSurface;
   HeightJet height(Uv p) const override;
+  HeightThirds height_thirds(Uv p) const override;
 };
 
 /// z = u^3 - 3 u v^2.
@@ -45,6 +52,7 @@ class MonkeySaddle final : public GraphSurface {
  public:
   using GraphSurface::GraphSurface;
   HeightJet height(Uv p) const override;
+  HeightThirds height_thirds(Uv p) const override;
 };
 
 /// z = sum of A exp(-|(u, v) - centre|^2 / (2 s^2)).
@@ -57,6 +65,7 @@ class GaussianBumps final : public GraphSurface {
   };
   GaussianBumps(std::vector<Bump> bumps, const UvBox& domain) : GraphSurface(domain), bumps_(std::move(bumps)) {}
   HeightJet height(Uv p) const override;
+  HeightThirds height_thirds(Uv p) const override;
 
  private:
   std::vector<Bump> bumps_;
@@ -70,6 +79,7 @@ class Ellipsoid final : public Surface {
   UvBox domain() const override;
   std::optional<double> u_period() const override;
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
 
  private:
@@ -85,6 +95,7 @@ class Catenoid final : public Surface {
   UvBox domain() const override;
   std::optional<double> u_period() const override;
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
 
  private:
@@ -100,6 +111,7 @@ class Helicoid final : public Surface {
   SurfaceKind kind() const override { return SurfaceKind::Function; }
   UvBox domain() const override { return domain_; }
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
 
  private:

@@ -79,7 +79,9 @@ BSplineSurface::BSplineSurface(KnotVector u_knots, KnotVector v_knots, const std
     : u_knots_(std::move(u_knots)),
       v_knots_(std::move(v_knots)),
       net_(make_net(u_knots_, v_knots_, poles, weights, centre)),
-      kernels_(fastest_kernels(u_knots_.degree(), v_knots_.degree())) {}
+      kernels_(fastest_kernels(u_knots_.degree(), v_knots_.degree())) {
+  join_seams();
+}
 
 Xyz BSplineSurface::pole(int i, int j) const {
   const double* q = net_.poles[static_cast<size_t>(i) * net_.row_length + j].at;
@@ -93,11 +95,11 @@ double BSplineSurface::weight(int i, int j) const {
 PoleCharts BSplineSurface::make_poles() const { return spline_poles(*this); }
 
 std::optional<double> BSplineSurface::u_period() const {
-  return u_knots_.periodic() ? std::optional(u_knots_.period()) : std::nullopt;
+  return u_knots_.wraps() ? std::optional(u_knots_.period()) : std::nullopt;
 }
 
 std::optional<double> BSplineSurface::v_period() const {
-  return v_knots_.periodic() ? std::optional(v_knots_.period()) : std::nullopt;
+  return v_knots_.wraps() ? std::optional(v_knots_.period()) : std::nullopt;
 }
 
 SurfaceJet BSplineSurface::jet(Uv p) const {
@@ -126,7 +128,9 @@ Span BSplineSurface::span(Uv p, UvVec towards) const {
   return {u.index, v.index, {u_knots_.box(u), v_knots_.box(v)}};
 }
 
-int BSplineSurface::continuity() const { return std::min(u_knots_.continuity(kSmooth), v_knots_.continuity(kSmooth)); }
+int BSplineSurface::continuity() const {
+  return std::min({u_knots_.continuity(kSmooth), v_knots_.continuity(kSmooth), seam_continuity_});
+}
 
 BSplineSurface::KnotLines BSplineSurface::knot_lines() const {
   const auto& u = u_knots_.lines();

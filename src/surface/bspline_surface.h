@@ -21,11 +21,14 @@ class BSplineSurface final : public Surface {
 
   SurfaceKind kind() const override { return SurfaceKind::BSpline; }
   UvBox domain() const override { return {u_knots_.domain(), v_knots_.domain()}; }
+  /// Also where the knots are not periodic but the first and the last row of poles are the same, to rounding, and no
+  /// pole: the surface is closed then, the seam a line between spans, and across it continuous or better as measured.
   std::optional<double> u_period() const override;
   std::optional<double> v_period() const override;
 
   SurfaceJet jet(Uv p) const override;
   SurfaceJet jet(Uv p, const Span& span) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   Xyz position(Uv p) const override;
 
   /// Span::box is infinite on the outer side of the outermost spans of a direction that is not periodic, since those
@@ -36,7 +39,7 @@ class BSplineSurface final : public Surface {
   const KnotVector& u_knots() const { return u_knots_; }
   const KnotVector& v_knots() const { return v_knots_; }
   bool rational() const { return net_.rational; }
-  /// The pole (i, j) relative to centre(), and its weight. REQUIRES: i < u_knots().pole_count(), j likewise
+  /// The pole (i, j) relative to centre(), and its weight. REQUIRES: i < u_knots().unrolled_count(), j likewise
   Xyz pole(int i, int j) const;
   double weight(int i, int j) const;
   const Xyz& centre() const { return net_.centre; }
@@ -49,6 +52,10 @@ class BSplineSurface final : public Surface {
 
  private:
   PoleCharts make_poles() const override;
+  void join_seams();
+
+  int seam_continuity_ = kSmooth;  // across the seams that join_seams has found
+
   KnotVector u_knots_, v_knots_;
   BSplineNet net_;
   BSplineKernels kernels_;

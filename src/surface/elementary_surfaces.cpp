@@ -54,6 +54,19 @@ SurfaceJet revolve(const Frame& f, double u, const Profile& m) {
           m.r_vv * c.rho + m.h_vv * f.z};
 }
 
+// With a straight profile.
+SurfaceThirds revolve_thirds(const Frame& f, double u, const Profile& m) {
+  const Circle c(f, u);
+  return {-m.r * c.rho_u, -m.r_v * c.rho, m.r_vv * c.rho_u, Xyz::Zero()};
+}
+
+// With a circle for a profile: its third derivative is the first one with the other sign.
+SurfaceThirds circle_thirds(const Frame& f, double u, const Profile& m) {
+  SurfaceThirds t = revolve_thirds(f, u, m);
+  t.vvv = -m.r_v * Circle(f, u).rho - m.h_v * f.z;
+  return t;
+}
+
 }  // namespace
 
 Plane::Plane(const Frame& frame) : frame_(checked(frame)) {}
@@ -62,11 +75,15 @@ SurfaceJet Plane::jet(Uv p) const {
   const Xyz zero = Xyz::Zero();
   return {frame_.origin + p.u * frame_.x + p.v * frame_.y, frame_.x, frame_.y, zero, zero, zero};
 }
+SurfaceThirds Plane::third(Uv, const Span&) const { return {Xyz::Zero(), Xyz::Zero(), Xyz::Zero(), Xyz::Zero()}; }
 
 Cylinder::Cylinder(const Frame& frame, double radius) : frame_(checked(frame)), radius_(checked_radius(radius)) {}
 UvBox Cylinder::domain() const { return {kFullTurn, kWholeLine}; }
 std::optional<double> Cylinder::u_period() const { return kTwoPi; }
 SurfaceJet Cylinder::jet(Uv p) const { return revolve(frame_, p.u, {radius_, p.v, 0.0, 1.0, 0.0, 0.0}); }
+SurfaceThirds Cylinder::third(Uv p, const Span&) const {
+  return revolve_thirds(frame_, p.u, {radius_, p.v, 0.0, 1.0, 0.0, 0.0});
+}
 
 Cone::Cone(const Frame& frame, double reference_radius, double half_angle)
     : frame_(checked(frame)),
@@ -85,6 +102,9 @@ std::optional<double> Cone::u_period() const { return kTwoPi; }
 SurfaceJet Cone::jet(Uv p) const {
   return revolve(frame_, p.u, {radius_ + p.v * sin_, p.v * cos_, sin_, cos_, 0.0, 0.0});
 }
+SurfaceThirds Cone::third(Uv p, const Span&) const {
+  return revolve_thirds(frame_, p.u, {radius_ + p.v * sin_, p.v * cos_, sin_, cos_, 0.0, 0.0});
+}
 
 Sphere::Sphere(const Frame& frame, double radius) : frame_(checked(frame)), radius_(checked_radius(radius)) {}
 UvBox Sphere::domain() const { return {kFullTurn, {-0.5 * std::numbers::pi, 0.5 * std::numbers::pi}}; }
@@ -92,6 +112,10 @@ std::optional<double> Sphere::u_period() const { return kTwoPi; }
 SurfaceJet Sphere::jet(Uv p) const {
   const double c = radius_ * std::cos(p.v), s = radius_ * std::sin(p.v);
   return revolve(frame_, p.u, {c, s, -s, c, -c, -s});
+}
+SurfaceThirds Sphere::third(Uv p, const Span&) const {
+  const double c = radius_ * std::cos(p.v), s = radius_ * std::sin(p.v);
+  return circle_thirds(frame_, p.u, {c, s, -s, c, -c, -s});
 }
 PoleCharts Sphere::make_poles() const { return ellipsoid_poles(frame_, radius_, radius_, radius_); }
 
@@ -103,6 +127,10 @@ std::optional<double> Torus::v_period() const { return kTwoPi; }
 SurfaceJet Torus::jet(Uv p) const {
   const double c = minor_ * std::cos(p.v), s = minor_ * std::sin(p.v);
   return revolve(frame_, p.u, {major_ + c, s, -s, c, -c, -s});
+}
+SurfaceThirds Torus::third(Uv p, const Span&) const {
+  const double c = minor_ * std::cos(p.v), s = minor_ * std::sin(p.v);
+  return circle_thirds(frame_, p.u, {major_ + c, s, -s, c, -c, -s});
 }
 
 }  // namespace geovor

@@ -16,6 +16,7 @@ class Plane final : public Surface {
   SurfaceKind kind() const override { return SurfaceKind::Plane; }
   UvBox domain() const override;
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
   const Frame& frame() const { return frame_; }
 
@@ -31,6 +32,7 @@ class Cylinder final : public Surface {
   UvBox domain() const override;
   std::optional<double> u_period() const override;
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
   const Frame& frame() const { return frame_; }
   double radius() const { return radius_; }
@@ -49,6 +51,7 @@ class Cone final : public Surface {
   UvBox domain() const override;
   std::optional<double> u_period() const override;
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
   const Frame& frame() const { return frame_; }
   double reference_radius() const { return radius_; }
@@ -69,6 +72,7 @@ class Sphere final : public Surface {
   UvBox domain() const override;
   std::optional<double> u_period() const override;
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
   const Frame& frame() const { return frame_; }
   double radius() const { return radius_; }
@@ -88,6 +92,7 @@ class Torus final : public Surface {
   std::optional<double> u_period() const override;
   std::optional<double> v_period() const override;
   SurfaceJet jet(Uv p) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   using Surface::jet;
   const Frame& frame() const { return frame_; }
   double major_radius() const { return major_; }

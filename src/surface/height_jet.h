@@ -8,4 +8,9 @@ struct HeightJet {
   double f, fu, fv, fuu, fuv, fvv;
 };
 
+/// Those of the third order.
+struct HeightThirds {
+  double fuuu, fuuv, fuvv, fvvv;
+};
+
 }  // namespace geovor

@@ -39,7 +39,7 @@ void check(const std::vector<double>& knots, const std::vector<int>& multiplicit
 
 KnotVector::KnotVector(const std::vector<double>& knots, const std::vector<int>& multiplicities, int degree,
                        bool periodic)
-    : degree_(degree), periodic_(periodic) {
+    : degree_(degree), periodic_(periodic), wraps_(periodic) {
   check(knots, multiplicities, degree, periodic);
   int total = 0;
   for (int m : multiplicities) total += m;
@@ -86,6 +86,11 @@ void KnotVector::unroll(const std::vector<double>& knots, const std::vector<int>
   if (!(domain_.lo < domain_.hi)) reject("the knots of a B-spline enclose no interval; repair the knot vector");
   rounding_ = kRoundingUnits * std::numeric_limits<double>::epsilon() *
               std::max({std::abs(domain_.lo), std::abs(domain_.hi), domain_.length()});
+}
+
+bool KnotVector::clamped(bool low) const {
+  const size_t last = flat_.size() - 1, p = degree_;
+  return !periodic_ && (low ? flat_[0] == flat_[p] : flat_[last] == flat_[last - p]);
 }
 
 void KnotVector::index_spans() {
@@ -146,7 +151,7 @@ int KnotVector::line_below(double x) const {
 KnotSpan KnotVector::search(double x, double towards) const {
   const int spans = static_cast<int>(span_of_line_.size());
   KnotSpan span;
-  if (periodic_ && !domain_.contains(x)) {
+  if (wraps_ && !domain_.contains(x)) {
     span.turns = std::floor((x - domain_.lo) / period());
     x -= span.turns * period();
   }
@@ -156,7 +161,7 @@ KnotSpan KnotVector::search(double x, double towards) const {
   } else if (lines_[k + 1] - x <= rounding_) {
     ++k;
   }
-  if (periodic_ && (k < 0 || k >= spans)) {
+  if (wraps_ && (k < 0 || k >= spans)) {
     span.turns += k < 0 ? -1.0 : 1.0;
     k = k < 0 ? spans - 1 : 0;
   }
@@ -166,7 +171,7 @@ KnotSpan KnotVector::search(double x, double towards) const {
 
 Interval KnotVector::box(const KnotSpan& span) const {
   const double lo = flat_[span.index], hi = flat_[span.index + 1];
-  if (periodic_) return {lo + span.turns * period(), hi + span.turns * period()};
+  if (wraps_) return {lo + span.turns * period(), hi + span.turns * period()};
   return {lo <= domain_.lo ? -kInf : lo, hi >= domain_.hi ? kInf : hi};
 }
 

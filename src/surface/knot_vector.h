@@ -33,8 +33,14 @@ class KnotVector {
 
   int degree() const { return degree_; }
   bool periodic() const { return periodic_; }
-  double period() const { return domain_.length(); }  ///< REQUIRES: periodic()
+  /// The ends of the domain are one place: what is asked for beyond them lies on the other side. So it is with periodic
+  /// knots, and with others after join_ends(), for curves and surfaces that are closed without saying so.
+  bool wraps() const { return wraps_; }
+  void join_ends() { wraps_ = true; }
+  double period() const { return domain_.length(); }  ///< REQUIRES: wraps()
   const Interval& domain() const { return domain_; }
+  /// Whether the curve's end at the low (high) end of the domain is its first (last) pole.
+  bool clamped(bool low) const;
   /// Number of poles that the caller has to give.
   int pole_count() const { return pole_count_; }
   /// Number of poles after unrolling: pole j of the unrolled row is pole j mod pole_count().
@@ -42,12 +48,12 @@ class KnotVector {
   const std::vector<double>& flat() const { return flat_; }
   /// Distinct knots of the domain, both ends included.
   const std::vector<double>& lines() const { return lines_; }
-  /// Smallest order of continuity at the knots inside the domain (and, if periodic, across its ends);
-  /// `smooth` where there are none.
+  /// Smallest order of continuity at the knots inside the domain (and, if periodic, across its ends, but not across
+  /// joined ones); `smooth` where there are none.
   int continuity(int smooth) const;
 
   /// The span that holds x; on a knot (to rounding) the one into which the sign of `towards` points, the right one if
-  /// that is 0. Outside a domain that is not periodic: the outermost span.
+  /// that is 0. Outside a domain that does not wrap: the outermost span.
   KnotSpan find(double x, double towards) const {
     // Mostly x lies inside the span in the middle of its bucket.
     const double place = (x - domain_.lo) * buckets_per_unit_;
@@ -58,7 +64,7 @@ class KnotVector {
     return search(x, towards);
   }
 
-  /// Borders of a span around the parameter asked for: infinite where a domain that is not periodic ends, so that the
+  /// Borders of a span around the parameter asked for: infinite where a domain that does not wrap ends, so that the
   /// outermost span holds everything beyond.
   Interval box(const KnotSpan& span) const;
 
@@ -67,7 +73,7 @@ class KnotVector {
 
   /// x moved by whole periods into the principal copy of a span whose box, as asked for, was `box`.
   double unwind(double x, int span, const Interval& box) const {
-    if (!periodic_ || box.lo == flat_[span]) return x;
+    if (!wraps_ || box.lo == flat_[span]) return x;
     return x - std::round((box.lo - flat_[span]) / period()) * period();
   }
 
@@ -88,6 +94,7 @@ class KnotVector {
 
   int degree_;
   bool periodic_;
+  bool wraps_;
   int pole_count_ = 0;
   Interval domain_;
   double rounding_ = 0.0;  // parameters closer than this are the same

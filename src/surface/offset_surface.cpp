@@ -17,35 +17,9 @@ constexpr double kPole = 1e-10;
 // At a pole the normal is taken this part of the domain further inside.
 constexpr double kPoleStep = 1e-7;
 
-// Differences of fourth order with the step h on a function that varies over the length l are off by (h/l)^4 / 30 +
-// 1.5 eps l / h of its size: 4e-13 at h = 1e-3 l.
-constexpr double kStep = 1e-3;
-
 bool is_pole(const SurfaceJet& b) {
   const double longest = std::max(b.Su.squaredNorm(), b.Sv.squaredNorm());
   return !(b.Su.cross(b.Sv).norm() > kPole * longest);
-}
-
-struct Seconds {
-  Xyz uu, uv, vv;
-};
-
-// The derivative of the second derivatives of one piece in direction `d` (a unit step in u or in v).
-Seconds third_derivatives(const Surface& basis, Uv p, UvVec d, double h, const Span& span) {
-  const SurfaceJet a = basis.jet(p + h * d, span), b = basis.jet(p + -h * d, span);
-  const SurfaceJet aa = basis.jet(p + 2.0 * h * d, span), bb = basis.jet(p + -2.0 * h * d, span);
-  auto difference = [h](const Xyz& f1, const Xyz& b1, const Xyz& f2, const Xyz& b2) -> Xyz {
-    return (8.0 * (f1 - b1) - (f2 - b2)) / (12.0 * h);
-  };
-  return {difference(a.Suu, b.Suu, aa.Suu, bb.Suu), difference(a.Suv, b.Suv, aa.Suv, bb.Suv),
-          difference(a.Svv, b.Svv, aa.Svv, bb.Svv)};
-}
-
-// A length, in the parameter, over which the basis changes: its span, and the first derivative over the second.
-double step(const Interval& box, double first, double second) {
-  double length = std::isfinite(box.length()) ? box.length() : 1.0;
-  if (second * length > first && first > 0.0) length = first / second;
-  return kStep * length;
 }
 
 // n = N / |N| and its derivatives from those of N = Bu x Bv.
@@ -99,14 +73,13 @@ SurfaceJet OffsetSurface::jet(Uv p, const Span& span) const {
     j.S = b.S + (j.S - inside.S);
     return j;
   }
-  const Seconds du = third_derivatives(*basis_, p, {1.0, 0.0}, step(span.box.u, b.Su.norm(), b.Suu.norm()), span);
-  const Seconds dv = third_derivatives(*basis_, p, {0.0, 1.0}, step(span.box.v, b.Sv.norm(), b.Svv.norm()), span);
+  const SurfaceThirds t = basis_->third(p, span);
 
   const Xyz Nu = b.Suu.cross(b.Sv) + b.Su.cross(b.Suv);
   const Xyz Nv = b.Suv.cross(b.Sv) + b.Su.cross(b.Svv);
-  const Xyz Nuu = du.uu.cross(b.Sv) + 2.0 * b.Suu.cross(b.Suv) + b.Su.cross(du.uv);
-  const Xyz Nuv = du.uv.cross(b.Sv) + b.Suu.cross(b.Svv) + b.Su.cross(du.vv);
-  const Xyz Nvv = dv.uv.cross(b.Sv) + 2.0 * b.Suv.cross(b.Svv) + b.Su.cross(dv.vv);
+  const Xyz Nuu = t.uuu.cross(b.Sv) + 2.0 * b.Suu.cross(b.Suv) + b.Su.cross(t.uuv);
+  const Xyz Nuv = t.uuv.cross(b.Sv) + b.Suu.cross(b.Svv) + b.Su.cross(t.uvv);
+  const Xyz Nvv = t.uvv.cross(b.Sv) + 2.0 * b.Suv.cross(b.Svv) + b.Su.cross(t.vvv);
   const Normal n(b, Nu, Nv);
 
   SurfaceJet j;

@@ -6,9 +6,8 @@
 namespace geovor {
 
 /// S = B + d n with n = Bu x Bv / |Bu x Bv| (as Geom_OffsetSurface). Periods and pieces are those of the basis.
-/// Position and first derivatives are exact. The second derivatives need third derivatives of the basis; these are
-/// differences of fourth order of its exact second derivatives, good to about 1e-12 of their size (exact to rounding
-/// where the basis is polynomial of degree at most 6 in each direction). At a pole of the basis, where n has no
+/// Exact up to the second derivatives where the basis is up to the third (Surface::third).
+/// At a pole of the basis, where n has no
 /// formula, the limit from inside the domain is taken. Regular only where d times the principal curvatures of the basis
 /// stays below 1.
 class OffsetSurface final : public Surface {

@@ -56,12 +56,6 @@ struct Rows {
   }
 };
 
-bool is_clamped(const KnotVector& knots, bool low) {
-  const auto& t = knots.flat();
-  const int p = knots.degree(), last = static_cast<int>(t.size()) - 1;
-  return !knots.periodic() && (low ? t[0] == t[p] : t[last] == t[last - p]);
-}
-
 // The knots across the side as depths from it.
 KnotVector depth_knots(const KnotVector& knots, const PoleSide& side) {
   std::vector<double> depths;
@@ -94,7 +88,7 @@ PolarMap::PolarMap(BSplineSurface map, const Frame& frame, double rounding)
 
 std::optional<PolarMap> PolarMap::make(const BSplineSurface& surface, const PoleSide& side) {
   const Rows rows{surface, side};
-  if (!is_clamped(rows.across(), side.low)) return std::nullopt;
+  if (!rows.across().clamped(side.low)) return std::nullopt;
   const double rounding = kCollapsed * rows.largest_coordinate();
   const Xyz pole = rows.pole(0, 0);
   for (int i = 0; i < rows.length(); ++i)

@@ -12,7 +12,7 @@ namespace {
 class Affine final : public ParameterMap {
  public:
   Affine(double scale, double shift) : scale_(scale), shift_(shift) { assert(scale != 0.0); }
-  Jet jet(double t) const override { return {scale_ * t + shift_, scale_, 0.0}; }
+  Jet jet(double t) const override { return {scale_ * t + shift_, scale_, 0.0, 0.0}; }
   double inverse(double x) const override { return (x - shift_) / scale_; }
   bool affine() const override { return true; }
 
@@ -25,7 +25,8 @@ class Moebius final : public ParameterMap {
   Moebius(Interval range, double A) : range_(range), A_(A) { assert(A > 0.0); }
   Jet jet(double t) const override {
     const double D = t + A_ * (1.0 - t), L = range_.length();
-    return {range_.lo + L * t / D, L * A_ / (D * D), -2.0 * L * A_ * (1.0 - A_) / (D * D * D)};
+    const double d1 = L * A_ / (D * D), d2 = -2.0 * d1 * (1.0 - A_) / D;
+    return {range_.lo + L * t / D, d1, d2, -3.0 * d2 * (1.0 - A_) / D};
   }
   double inverse(double x) const override {
     if (std::isinf(x)) return x;
@@ -44,7 +45,7 @@ class Cubic final : public ParameterMap {
   Jet jet(double t) const override {
     const double L = range_.length();
     return {range_.lo + L * (t + k_ * t * (1.0 - t) * (1.0 - 2.0 * t)), L * (1.0 + k_ * (1.0 - 6.0 * t + 6.0 * t * t)),
-            L * k_ * (12.0 * t - 6.0)};
+            L * k_ * (12.0 * t - 6.0), L * k_ * 12.0};
   }
   // Newton inside a bracket that it shrinks; the map ascends on [0, 1], and the domain's parameters stay there.
   double inverse(double x) const override {
@@ -146,6 +147,25 @@ SurfaceJet Reparameterized::jet(Uv p) const {
   if (swap_) std::swap(p.u, p.v);
   const ParameterMap::Jet u = u_map_->jet(p.u), v = v_map_->jet(p.v);
   return chain(base_->jet({u.x, v.x}), u, v);
+}
+
+// S'_aaa = S_uuu x'^3 + 3 S_uu x' x'' + S_u x''', S'_aab = (S_uuv x'^2 + S_uv x'') y'.
+SurfaceThirds Reparameterized::third(Uv p, const Span& span) const {
+  if (swap_) std::swap(p.u, p.v);
+  const ParameterMap::Jet u = u_map_->jet(p.u), v = v_map_->jet(p.v);
+  const Span on_base{span.u, span.v, box_to_base(span.box)};
+  const SurfaceJet j = base_->jet({u.x, v.x}, on_base);
+  const SurfaceThirds b = base_->third({u.x, v.x}, on_base);
+  SurfaceThirds t;
+  t.uuu = u.d1 * u.d1 * u.d1 * b.uuu + 3.0 * u.d1 * u.d2 * j.Suu + u.d3 * j.Su;
+  t.uuv = v.d1 * (u.d1 * u.d1 * b.uuv + u.d2 * j.Suv);
+  t.uvv = u.d1 * (v.d1 * v.d1 * b.uvv + v.d2 * j.Suv);
+  t.vvv = v.d1 * v.d1 * v.d1 * b.vvv + 3.0 * v.d1 * v.d2 * j.Svv + v.d3 * j.Sv;
+  if (swap_) {
+    std::swap(t.uuu, t.vvv);
+    std::swap(t.uuv, t.uvv);
+  }
+  return t;
 }
 
 // The base finds its piece again by the piece's own numbers and box, so both are handed back to it.

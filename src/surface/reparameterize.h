@@ -12,7 +12,7 @@ namespace geovor {
 class ParameterMap {
  public:
   struct Jet {
-    double x, d1, d2;  ///< the old parameter and its derivatives by the new one
+    double x, d1, d2, d3;  ///< the old parameter and its derivatives by the new one
   };
   virtual ~ParameterMap() = default;
   virtual Jet jet(double t) const = 0;
@@ -47,6 +47,7 @@ class Reparameterized final : public Surface {
   std::optional<double> v_period() const override;
   SurfaceJet jet(Uv p) const override;
   SurfaceJet jet(Uv p, const Span& span) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   Xyz position(Uv p) const override { return base_->position(to_base(p)); }
   Span span(Uv p, UvVec towards) const override;
   int continuity() const override { return base_->continuity(); }

@@ -18,6 +18,11 @@ struct SurfaceJet {
   Xyz S, Su, Sv, Suu, Suv, Svv;
 };
 
+/// The partial derivatives of the third order.
+struct SurfaceThirds {
+  Xyz uuu, uuv, uvv, vvv;
+};
+
 /// A piece of the parameter plane on which the surface is one analytic function (for a B-spline: one
 /// polynomial span). `u` and `v` name the piece to the surface that made it; `box` are its borders, infinite
 /// where the piece has no border in that direction.
@@ -85,6 +90,10 @@ class Surface {
     (void)span;
     return jet(p);
   }
+
+  /// The third derivatives of the analytic piece `span`. Exact, unless the surface says otherwise: those that don't
+  /// have them take differences of fourth order of the second derivatives, good to about 1e-12 of their size.
+  virtual SurfaceThirds third(Uv p, const Span& span) const;
 
   /// Smallest order of continuity across the lines between pieces inside the domain: 0 for a surface with
   /// creases, kSmooth where it is analytic.

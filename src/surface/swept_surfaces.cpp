@@ -19,6 +19,18 @@ void check(const Curve3Ptr& curve, const Xyz& direction) {
     throw Error(ErrorCode::FaceRejected, "a swept surface has no direction; repair the surface");
 }
 
+// Rodrigues: the part along the axis stays, the part across it turns. The derivative by the angle is axis x the turned
+// vector.
+struct Rotation {
+  const Xyz& axis;
+  double cosine, sine;
+  Rotation(const Xyz& a, double angle) : axis(a), cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  Xyz operator()(const Xyz& w) const {
+    const Xyz along = axis.dot(w) * axis;
+    return along + cosine * (w - along) + sine * axis.cross(w);
+  }
+};
+
 }  // namespace
 
 RevolutionSurface::RevolutionSurface(Curve3Ptr meridian, const Xyz& origin, const Xyz& direction)
@@ -29,14 +41,8 @@ RevolutionSurface::RevolutionSurface(Curve3Ptr meridian, const Xyz& origin, cons
 UvBox RevolutionSurface::domain() const { return {{0.0, kTwoPi}, meridian_->domain()}; }
 std::optional<double> RevolutionSurface::u_period() const { return kTwoPi; }
 
-// Rodrigues: the part along the axis stays, the part across it turns. The derivative by the angle is axis x the turned
-// vector.
 SurfaceJet RevolutionSurface::turn(double angle, const CurveJet<3>& c) const {
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  auto turned = [&](const Xyz& w) -> Xyz {
-    const Xyz along = axis_.dot(w) * axis_;
-    return along + cosine * (w - along) + sine * axis_.cross(w);
-  };
+  const Rotation turned(axis_, angle);
   SurfaceJet j;
   const Xyz r = turned(c.C - origin_);
   j.S = origin_ + r;
@@ -55,6 +61,13 @@ Span RevolutionSurface::span(Uv p, UvVec towards) const {
 
 SurfaceJet RevolutionSurface::jet(Uv p, const Span& span) const {
   return turn(p.u, meridian_->jet(p.v, CurvePiece{span.v, span.box.v}));
+}
+
+SurfaceThirds RevolutionSurface::third(Uv p, const Span& span) const {
+  const CurveJet<3> c = meridian_->jet(p.v, CurvePiece{span.v, span.box.v});
+  const Rotation turned(axis_, p.u);
+  const Xyz su = axis_.cross(turned(c.C - origin_)), suv = axis_.cross(turned(c.d1));
+  return {axis_.cross(axis_.cross(su)), axis_.cross(suv), axis_.cross(turned(c.d2)), turned(c.d3)};
 }
 
 PoleCharts RevolutionSurface::make_poles() const { return revolution_poles(*this); }
@@ -77,6 +90,11 @@ Span ExtrusionSurface::span(Uv p, UvVec towards) const {
 
 SurfaceJet ExtrusionSurface::jet(Uv p, const Span& span) const {
   return shift(p.v, profile_->jet(p.u, CurvePiece{span.u, span.box.u}));
+}
+
+SurfaceThirds ExtrusionSurface::third(Uv p, const Span& span) const {
+  const CurveJet<3> c = profile_->jet(p.u, CurvePiece{span.u, span.box.u});
+  return {c.d3, Xyz::Zero(), Xyz::Zero(), Xyz::Zero()};
 }
 
 }  // namespace geovor

@@ -19,6 +19,7 @@ class RevolutionSurface final : public Surface {
   std::optional<double> v_period() const override { return meridian_->period(); }
   SurfaceJet jet(Uv p) const override { return turn(p.u, meridian_->jet(p.v)); }
   SurfaceJet jet(Uv p, const Span& span) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   Span span(Uv p, UvVec towards) const override;
   int continuity() const override { return meridian_->continuity(); }
 
@@ -44,6 +45,7 @@ class ExtrusionSurface final : public Surface {
   std::optional<double> u_period() const override { return profile_->period(); }
   SurfaceJet jet(Uv p) const override { return shift(p.v, profile_->jet(p.u)); }
   SurfaceJet jet(Uv p, const Span& span) const override;
+  SurfaceThirds third(Uv p, const Span& span) const override;
   Span span(Uv p, UvVec towards) const override;
   int continuity() const override { return profile_->continuity(); }
 

@@ -96,10 +96,10 @@ TEST(OffsetSurface, OfElementarySurfacesIsElementary) {
   const OffsetSurface cone(std::make_shared<Cone>(Frame{}, 2.0, 0.4), 0.3);
   for (int i = 0; i < 100; ++i) {
     const Uv p = random_point(random, {{0, 6}, {-1.5, 1.5}});
-    EXPECT_LT(distance(sphere.jet(p), Sphere({}, 2.5).jet(p)), 3e-11);
-    EXPECT_LT(distance(torus.jet(p), Torus({}, 3.0, 0.75).jet(p)), 3e-11);
+    EXPECT_LT(distance(sphere.jet(p), Sphere({}, 2.5).jet(p)), 3e-14);
+    EXPECT_LT(distance(torus.jet(p), Torus({}, 3.0, 0.75).jet(p)), 3e-14);
     const SurfaceJet moved = Cone({Xyz(0, 0, -0.3 * std::sin(0.4))}, 2.0 + 0.3 * std::cos(0.4), 0.4).jet(p);
-    EXPECT_LT(distance(cone.jet(p), moved), 3e-11);
+    EXPECT_LT(distance(cone.jet(p), moved), 3e-14);
   }
 }
 
@@ -119,8 +119,8 @@ TEST(OffsetSurface, HasTheCurvaturesOfAParallelSurface) {
   for (int i = 0; i < 100; ++i) {
     const Uv p = random_point(random, wave->domain());
     const Curvatures k = curvatures(wave->jet(p)), o = curvatures(s.jet(p));
-    EXPECT_NEAR(o.k1, k.k1 / (1 - d * k.k1), 1e-9);
-    EXPECT_NEAR(o.k2, k.k2 / (1 - d * k.k2), 1e-9);
+    EXPECT_NEAR(o.k1, k.k1 / (1 - d * k.k1), 1e-13);
+    EXPECT_NEAR(o.k2, k.k2 / (1 - d * k.k2), 1e-13);
   }
 }
 
