@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
+#include "surface/bspline_surface.h"
+#include "surface/project.h"
 #include "test_faces.h"
 #include "voronoi/diagram_builder.h"
 
@@ -59,6 +62,34 @@ TEST(Warnings, NoSeamIsNamedWhereThereIsNoneOrThePeriodIsDeclared) {
   EXPECT_TRUE(
       warnings_of(TestFace(std::make_shared<Undeclared>(tube(), open)).rectangle(open), kTubeSites, "seam_is_border")
           .empty());
+}
+
+/// A B-spline whose first and last row of poles are one is closed: the diagram runs on over its seam.
+TEST(Warnings, NoSeamIsNamedOnAClosedSplineWithoutPeriodicKnots) {
+  const double h = std::numbers::sqrt2 / 2.0;
+  const double ring[9][3] = {{1, 0, 1},   {1, 1, h},  {0, 1, 1},  {-1, 1, h}, {-1, 0, 1},
+                             {-1, -1, h}, {0, -1, 1}, {1, -1, h}, {1, 0, 1}};
+  std::vector<Xyz> poles;
+  std::vector<double> weights;
+  for (const auto& p : ring) {
+    for (const double z : {0.0, 3.0}) {
+      poles.push_back({p[0], p[1], z});
+      weights.push_back(p[2]);
+    }
+  }
+  const auto spline = std::make_shared<BSplineSurface>(KnotVector({0, 1, 2, 3, 4}, {3, 2, 2, 2, 3}, 2),
+                                                       KnotVector({0.0, 3.0}, {2, 2}, 1), poles, weights);
+  const TestFace closed = TestFace(spline).ring({{0.0, 4.0}, {0.0, 3.0}}), round = TestFace(tube()).ring(kOnce);
+  std::vector<Uv> sites;
+  for (const Uv p : kTubeSites) {
+    const Xyz x = tube()->position(p);
+    const Uv q{p.u * 2.0 / kPi, p.v};
+    sites.push_back(project_near(*spline, x, q, spline->domain()).uv);
+  }
+  const VoronoiDiagram a = build_diagram(closed.domain(), sites), b = build_diagram(round.domain(), kTubeSites);
+  EXPECT_TRUE(a.warnings.empty());
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  ASSERT_EQ(a.edges.size(), b.edges.size());
 }
 
 std::set<int> sites_with_hidden_parts(const TestFace& face, const std::vector<Uv>& sites) {
