@@ -16,8 +16,9 @@ TopoDS_Shape facet_shape(const TriangleMesh& mesh);
 
 struct StepFile {
   std::string path;
-  std::string unit;         ///< of the shapes' lengths and of the file: "mm", "in", …
-  std::string description;  ///< for the header
+  std::string unit;          ///< of the shapes' lengths and of the file: "mm", "in", …
+  std::string description;   ///< for the header
+  bool every_digit = false;  ///< numbers read back as the same double; otherwise OpenCASCADE's 13 digits
 };
 
 struct NamedShape {

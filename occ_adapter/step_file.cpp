@@ -4,9 +4,12 @@
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepBasic_Product.hxx>
+#include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <filesystem>
+#include <fstream>
 
 #include "occ_adapter/occ_write_private.h"
 
@@ -52,11 +55,20 @@ void fill_header(STEPControl_Writer& writer, const std::string& path, const std:
   header.SetDescriptionValue(1, text(description));
 }
 
+bool write_text(STEPControl_Writer& writer, bool every_digit, const std::string& place) {
+  if (!every_digit) return writer.Write(place.c_str()) == IFSelect_RetDone;
+  StepData_StepWriter text_writer(writer.Model());
+  text_writer.FloatWriter().SetFormat("%.16E");  // 17 significant digits name a double
+  text_writer.SendModel(Handle(StepData_Protocol)::DownCast(writer.Model()->Protocol()));
+  std::ofstream out(place);
+  return text_writer.Print(out) && out.flush().good();
+}
+
 void write_shapes(const std::vector<NamedShape>& shapes, const StepFile& file, const std::string& place) {
   STEPControl_Writer writer;
   for (const NamedShape& named : shapes) transfer(writer, named);
   fill_header(writer, file.path, file.description);
-  if (writer.Write(place.c_str()) != IFSelect_RetDone) {
+  if (!write_text(writer, file.every_digit, place)) {
     throw Error(ErrorCode::Unwritable, "can't write here; check folder, permissions and free space");
   }
 }

@@ -72,7 +72,7 @@ TopoDS_Edge edge_of(const CadCurve& curve) {
 
 void write_step(const TriangleMesh& mesh, const std::string& unit, const std::string& path) {
   require_writable(mesh);
-  occ::write_step_file({path, unit, "faceted boundary representation"}, [&] {
+  occ::write_step_file({path, unit, "faceted boundary representation", false}, [&] {
     const std::string name = std::filesystem::path(path).stem().string();
     return std::vector<occ::NamedShape>{{occ::facet_shape(mesh), name}};
   });
@@ -81,7 +81,7 @@ void write_step(const TriangleMesh& mesh, const std::string& unit, const std::st
 void write_step(const std::vector<CadCurve>& curves, const std::string& unit, const std::string& path) {
   if (curves.empty()) throw Error(ErrorCode::Unwritable, "there is no curve; nothing to write");
   for (const CadCurve& curve : curves) require_writable(curve);
-  occ::write_step_file({path, unit, "curves"}, [&] {
+  occ::write_step_file({path, unit, "curves", true}, [&] {
     std::vector<occ::NamedShape> shapes;
     for (const CadCurve& curve : curves) shapes.push_back({edge_of(curve), curve.name});
     return shapes;

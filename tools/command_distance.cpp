@@ -77,8 +77,9 @@ void write_outputs(const DistanceArguments& arguments, const CadModel& model, co
   outputs.commit();
 }
 
-void print_end(const char* name, const FacePlace& place) {
+void print_end(const char* name, const FacePlace& place, const std::string& unit) {
   line(name, fmt::format("{}; {}", words(place.uv), words(place.xyz)));
+  if (place.moved > 0.0) line("  moved by", fmt::format("{:.3g} {} onto the face", place.moved, unit));
 }
 
 std::string direction(UvVec uv, const Xyz& tangent) {
@@ -102,8 +103,8 @@ void print_path(const FacePath& path, const std::string& unit) {
 
 void print_summary(const CadModel& model, const CadFace& face, const FaceDistance& distance) {
   line("face", fmt::format("{} ({})", face_label(face.number), to_string(face.surface->kind())));
-  print_end("from", distance.from);
-  print_end("to", distance.to);
+  print_end("from", distance.from, model.unit);
+  print_end("to", distance.to, model.unit);
   // Every digit: the same double is read back.
   line("distance", fmt::format("{} {}", distance.length(), model.unit));
   line("why", explain(distance.result));

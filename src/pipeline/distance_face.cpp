@@ -107,7 +107,7 @@ FacePath FaceDistances::follow(const FacePlace& from, const FacePlace& to, const
   found.points = sample_path(path, [&](const auto& a, const auto& middle, const auto& b) {
     return sag_in_space(a, middle, b) <= deviation && sag_in_parameters(surface(), a, middle, b) <= deviation;
   });
-  found.end_tangent = path.tangent_before(static_cast<int>(path.breaks().size()) - 1);
+  found.end_tangent = path.before(path.length()).tangent;
   found.exit = find_exit(path, from, to);
   return found;
 }

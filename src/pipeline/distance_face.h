@@ -32,7 +32,7 @@ struct FacePath {
 inline constexpr double kPolylineDeviation = 1e-5;
 
 struct DistanceWarning {
-  std::string kind;  ///< "path_leaves_face", "many_paths", "point_moved"
+  std::string kind;  ///< "path_leaves_face", "many_paths"
   std::string text;
 };
 

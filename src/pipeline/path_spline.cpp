@@ -92,11 +92,10 @@ CadCurve spline_of_path(const SurfacePath& path, double deviation) {
   constexpr double kCorner = 1e-9;
   SplineFitter fitter(path, deviation);
   for (const PathPiece& piece : path.pieces()) {
-    PathPoint b = path.at(piece.to);
-    const Xyz onwards = b.tangent;
-    if (piece.ends_at >= 0) b.tangent = path.tangent_before(piece.ends_at);
-    fitter.add(path.at(piece.from), b, kMostHalvings);
-    if (piece.to < path.length() && (onwards - b.tangent).norm() > kCorner) fitter.corner();
+    const PathPoint end = path.before(piece.to);
+    fitter.add(path.at(piece.from), end, kMostHalvings);
+    const bool inside = piece.ends_at_break && piece.to < path.length();
+    if (inside && (path.at(piece.to).tangent - end.tangent).norm() > kCorner) fitter.corner();
   }
   return fitter.finish();
 }

@@ -3,19 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surface/forms.h"
-
 namespace geovor {
 namespace {
 
-// Pieces that a path is cut into before it is looked at: no bump of a tenth of its length is stepped over.
+// Pieces that a path is cut into before it is looked at.
 constexpr int kFirstPieces = 16;
 
-// Places that are kept of a path, so that any other is one or two steps of the integrator away.
-constexpr int kMilestones = 64;
-
-// Halvings of a first piece, at most: it ends at a place where the path has no tangent.
+// Halvings of a first piece, at most: it ends at a place where the path has no tangent. 2^-16 of a sixteenth is a
+// millionth of the path.
 constexpr int kMostHalvings = 16;
+
+PathOptions beyond_the_domain() {
+  PathOptions options;
+  options.trace.stop_at_domain = false;
+  return options;
+}
+
+bool is_break(PathEventKind kind) {
+  return kind == PathEventKind::KnotLine || kind == PathEventKind::Crease || kind == PathEventKind::Seam;
+}
 
 void refine(const SurfacePath& path, const CloseEnough& close, const PathPoint& a, const PathPoint& b, int halvings,
             std::vector<PathPoint>& out) {
@@ -31,34 +37,38 @@ void refine(const SurfacePath& path, const CloseEnough& close, const PathPoint& 
 }  // namespace
 
 SurfacePath::SurfacePath(const Surface& surface, Uv from, const Connection& connection)
-    : surface_(surface), length_(connection.length), breaks_{0.0, connection.length} {
-  TraceOptions options;
-  options.stop_at_domain = false;
-  milestones_ = sample_geodesic(surface, from, connection.start_direction, length_, kMilestones, options);
-}
+    : path_(surface, from, connection.start_direction, connection.length, beyond_the_domain()) {}
 
 PathPoint SurfacePath::at(double s) const {
-  const int last = static_cast<int>(milestones_.size()) - 1;
-  const int k = length_ > 0.0 ? std::min(static_cast<int>(kMilestones * (s / length_)), last) : 0;
-  TraceOptions options;
-  options.stop_at_domain = false;
-  const double rest = std::max(0.0, s - length_ * k / kMilestones);
-  const GeodesicState end = trace_geodesic(surface_, milestones_[k].p, milestones_[k].d, rest, options).end;
-  const SurfaceJet j = surface_.jet(end.p);
-  return {s, end.p, j.S, push_forward(j, end.d).normalized()};
+  const SpaceState state = path_.at(s);
+  return {s, state.p, state.S, state.tangent};
 }
 
-Xyz SurfacePath::tangent_before(int i) const { return at(breaks_[i]).tangent; }
+PathPoint SurfacePath::before(double s) const {
+  PathPoint p = at(s);
+  p.tangent = path_.at(std::nextafter(s, 0.0)).tangent;
+  return p;
+}
 
 std::vector<PathPiece> SurfacePath::pieces() const {
+  // Breaks nearer to each other than this part of the path are one: two knot lines that cross under it.
+  constexpr double kSame = 1e-12;
+  std::vector<double> breaks{0.0};
+  const double apart = kSame * length();
+  for (const PathEvent& event : path_.events()) {
+    if (is_break(event.kind) && event.s > breaks.back() + apart && event.s < length() - apart)
+      breaks.push_back(event.s);
+  }
+  breaks.push_back(length());
   std::vector<PathPiece> all;
-  for (int i = 0; i + 1 < static_cast<int>(breaks_.size()); ++i) {
-    const double length = breaks_[i + 1] - breaks_[i];
-    const int count = std::max(1, static_cast<int>(std::ceil(kFirstPieces * length / length_)));
-    for (int k = 0; k < count; ++k)
-      all.push_back({breaks_[i] + length * k / count, breaks_[i] + length * (k + 1) / count});
-    all.back().to = breaks_[i + 1];
-    all.back().ends_at = i + 1;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double stretch = breaks[i + 1] - breaks[i];
+    const int count = std::max(1, static_cast<int>(std::ceil(kFirstPieces * stretch / length())));
+    for (int k = 0; k < count; ++k) {
+      all.push_back({breaks[i] + stretch * k / count, breaks[i] + stretch * (k + 1) / count, false});
+    }
+    all.back().to = breaks[i + 1];
+    all.back().ends_at_break = true;
   }
   return all;
 }

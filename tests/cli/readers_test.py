@@ -20,6 +20,15 @@ Printf("box %.17g %.17g %.17g %.17g %.17g %.17g", General.MinX, General.MinY, Ge
        General.MaxX, General.MaxY, General.MaxZ);
 """
 
+FREECAD_CURVES = """
+import json, sys
+sys.path.append(sys.argv[1])
+import FreeCAD, Part
+shape = Part.Shape()
+shape.read("path.step")
+print(json.dumps([{"length": e.Length, "ends": [list(v.Point) for v in e.Vertexes]} for e in shape.Edges]))
+"""
+
 FREECAD_SCRIPT = """
 import json, sys
 sys.path.append(sys.argv[1])
@@ -63,9 +72,9 @@ class Readers(ProgramTest):
         box = re.search(r"^box (.*)$", done.stdout, re.M)
         return tuple(map(int, counts.groups())), list(map(float, box.group(1).split()))
 
-    def freecad(self):
+    def freecad(self, script=FREECAD_SCRIPT):
         require(self, FREECAD_MODULES, "FreeCAD")
-        self.write("look.py", FREECAD_SCRIPT)
+        self.write("look.py", script)
         done = subprocess.run([SYSTEM_PYTHON, "look.py", FREECAD_MODULES], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout.splitlines()[-1])
@@ -107,6 +116,28 @@ class Readers(ProgramTest):
         seen = self.freecad()
         self.assertEqual((seen["stl"]["triangles"], seen["stl"]["solid"]), (triangles, False))
         self.assertEqual((seen["step"]["faces"], seen["step"]["solids"], seen["step"]["valid"]), (triangles, 0, True))
+
+    def test_freecad_opens_the_paths_of_a_distance_at_their_length(self):
+        for name, start, end, count in (("sphere.step", "0.1,0.2", "2,-0.5", 1), ("wave.step", "-2,-1", "2,1.5", 1),
+                                        ("cylinder_tube.step", "0,5", "3.141592653589793,20", 2)):
+            self.succeed("distance", sample(name), "--from", start, "--to", end, "-o", "path.step", "-o", "path.json")
+            document = self.read_json("path.json")
+            edges = self.freecad(FREECAD_CURVES)
+            self.assertEqual(len(edges), count)
+            for edge in edges:
+                self.assertAlmostEqual(edge["length"] / document["length"], 1, delta=1e-9)
+                for vertex, end_name in zip(edge["ends"], ("from", "to")):
+                    for found, wanted in zip(vertex, document[end_name]["xyz"]):
+                        self.assertAlmostEqual(found, wanted, delta=1e-9)
+
+    def test_gmsh_opens_the_path_of_a_distance(self):
+        gmsh = shutil.which("gmsh")
+        require(self, gmsh, "gmsh")
+        self.succeed("distance", sample("sphere.step"), "--from", "0,0", "--to", "1,0", "-o", "path.step")
+        self.write("look.geo", 'Merge "path.step"; curves() = Curve{:}; Printf("curves %g", #curves());')
+        done = subprocess.run([gmsh, "look.geo", "-parse_and_exit"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        self.assertIn("curves 1", done.stdout)
 
 
 if __name__ == "__main__":
