@@ -1,15 +1,14 @@
 #include "geodesic/path.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "geodesic/closed_form_path.h"
 #include "geodesic/closed_forms.h"
 #include "geodesic/integrator.h"
 #include "geodesic/path_events.h"
 #include "geodesic/pole_passage.h"
-#include "surface/elementary_surfaces.h"
 #include "surface/forms.h"
 
 namespace geovor {
@@ -114,20 +113,8 @@ GeodesicState GeodesicPath::state(double s) const {
 SpaceState GeodesicPath::at(double s) const {
   const double within = std::clamp(s, 0.0, length());
   if (within == 0.0) return first_;
-  return record_.legs.empty() ? on_closed_form(within) : space_state(*surface_, leg_at(within), within);
-}
-
-// On a sphere the directions of the parameter plane end at the poles; those of space do not.
-SpaceState GeodesicPath::on_closed_form(double s) const {
-  const GeodesicState x = trace_closed_form(*surface_, start_, direction_, s)->end;
-  if (const auto* sphere = dynamic_cast<const Sphere*>(surface_)) {
-    const double R = sphere->radius(), c = std::cos(s / R), d = std::sin(s / R);
-    const Xyz radial = (first_.S - sphere->frame().origin) / R, out = c * radial + d * first_.tangent;
-    const double side = first_.normal.dot(radial) < 0.0 ? -1.0 : 1.0;
-    return {sphere->frame().origin + R * out, c * first_.tangent - d * radial, side * out, x.y, x.dy, x.p};
-  }
-  const SurfaceJet j = surface_->jet(x.p);
-  return {j.S, push_forward(j, x.d).normalized(), unit_normal(j), x.y, x.dy, x.p};
+  return record_.legs.empty() ? closed_form_at(*surface_, start_, direction_, first_.tangent, within)
+                              : space_state(*surface_, leg_at(within), within);
 }
 
 }  // namespace geovor

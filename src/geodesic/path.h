@@ -58,7 +58,6 @@ class GeodesicPath {
   void find_end(const PathOptions& options);
   void stop_at(double s);
   const PathLeg& leg_at(double s) const;
-  SpaceState on_closed_form(double s) const;
 
   const Surface* surface_;
   Uv start_;

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geodesic/closed_forms.h"
 #include "geodesic/pole_passage.h"
 #include "numeric/dop853.h"
 #include "numeric/root.h"
-#include "surface/elementary_surfaces.h"
 #include "surface/forms.h"
 
 namespace geovor {
@@ -164,22 +162,6 @@ class EventFinder {
   std::vector<PathEvent> events_;
 };
 
-// Great circles come nearest to a pole where the latitude is extreme.
-void add_poles_of_sphere(const Sphere& sphere, Uv start, UvVec direction, double length,
-                         std::vector<PathEvent>& events) {
-  const double R = sphere.radius(), cosine = std::abs(std::cos(start.v));
-  const double climb = direction.v / std::hypot(direction.u * cosine, direction.v);
-  const double top = std::atan2(std::cos(start.v) < 0.0 ? -climb * cosine : climb * cosine, std::sin(start.v));
-  for (double arc = top; arc * R <= length; arc += M_PI) {
-    if (!(arc >= 0.0)) continue;
-    const Uv p = trace_closed_form(sphere, start, direction, arc * R)->end.p;
-    const double chord = 2.0 * R * std::sin(0.5 * (M_PI / 2.0 - std::abs(p.v)));
-    for (const auto& chart : sphere.poles())
-      if (chart->side().low == (p.v < 0.0) && chord <= chart->radius())
-        events.push_back({PathEventKind::Pole, arc * R, p, chord});
-  }
-}
-
 }  // namespace
 
 GeodesicVector state_on(const Surface& surface, const PathLeg& leg, double s) {
@@ -213,29 +195,6 @@ double conjugate_point_on(const Surface& surface, const PathLeg& leg) {
 
 std::vector<PathEvent> find_events(const Surface& surface, const PathRecord& record, double touch) {
   return EventFinder(surface, record, touch).find();
-}
-
-std::vector<PathEvent> closed_form_events(const Surface& surface, Uv start, UvVec direction, double length) {
-  std::vector<PathEvent> events;
-  const auto point = [&](double s) { return trace_closed_form(surface, start, direction, s)->end.p; };
-  if (const auto* sphere = dynamic_cast<const Sphere*>(&surface)) {
-    for (double k = 1.0; k * M_PI * sphere->radius() <= length; k += 1.0) {
-      const double s = k * M_PI * sphere->radius();
-      events.push_back({PathEventKind::ConjugatePoint, s, point(s), 0.0});
-    }
-    add_poles_of_sphere(*sphere, start, direction, length, events);
-  }
-  if (const auto period = surface.u_period()) {  // u is monotone on all of them
-    const double lo = surface.domain().u.lo;
-    const double from = std::floor((start.u - lo) / *period), to = std::floor((point(length).u - lo) / *period);
-    for (double k = std::min(from, to) + 1.0; k <= std::max(from, to); k += 1.0) {
-      const auto beyond = [&](double s) { return point(s).u - lo - k * *period; };
-      const double s = root_between(beyond, 0.0, length, root_tolerance(length));
-      events.push_back({PathEventKind::Seam, s, point(s), 0.0});
-    }
-  }
-  std::stable_sort(events.begin(), events.end(), [](const PathEvent& a, const PathEvent& b) { return a.s < b.s; });
-  return events;
 }
 
 }  // namespace geovor

@@ -21,7 +21,4 @@ double conjugate_point_on(const Surface& surface, const PathLeg& leg);
 /// All events of a traced path but its end, by ascending s. A line within `touch` (a length in space) is touched.
 std::vector<PathEvent> find_events(const Surface& surface, const PathRecord& record, double touch);
 
-/// The same for a path in closed form.
-std::vector<PathEvent> closed_form_events(const Surface& surface, Uv start, UvVec direction, double length);
-
 }  // namespace geovor

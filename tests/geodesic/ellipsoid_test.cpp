@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geodesic/connect.h"
+#include "geodesic/offset.h"
 #include "support/differences.h"
 #include "support/geodesic_oracles.h"
 #include "surface/analytic_surfaces.h"
@@ -61,6 +62,44 @@ TEST_P(EllipsoidOfRevolution, InverseProblemAgreesWithGeographicLib) {
     EXPECT_NEAR(c.length, s12, 1e-11);
     EXPECT_NEAR(c.y, m12, 1e-10);
     EXPECT_NEAR(c.angle, (90.0 - azimuth1) * kDegree, 1e-10);
+  }
+}
+
+// Over both poles and past them at any distance: azimuths from 60 degrees down to nothing.
+TEST_P(EllipsoidOfRevolution, PathsPastThePolesAgreeWithGeographicLib) {
+  const double a = 2.0, f = GetParam();
+  const Ellipsoid ellipsoid(a, a, a * (1.0 - f));
+  const GeographicLib::GeodesicExact exact(a, f);
+  std::mt19937 random(3);
+  for (const double azimuth : {60.0, 10.0, 1.0, 1e-2, 1e-4, 1e-7, 1e-10, 1e-13, 0.0}) {
+    for (int i = 0; i < 10; ++i) {
+      const double latitude = uniform(random, -60.0, 60.0), s = uniform(random, 2.0, 10.0);
+      double latitude2, longitude2, azimuth2, m12, M12, M21;
+      exact.Direct(latitude, 0.0, azimuth, s, latitude2, longitude2, azimuth2, m12, M12, M21);
+      const Uv p{0.0, reduced(latitude, f)}, q{longitude2 * kDegree, reduced(latitude2, f)};
+      const UvVec d = testing::heading(ellipsoid, p, (90.0 - azimuth) * kDegree);
+      const TraceResult path = trace_geodesic(ellipsoid, p, d, s);
+      ASSERT_EQ(path.status, TraceStatus::Converged);
+      EXPECT_LT(testing::gap(ellipsoid, path.end.p, q), 5e-12 * s) << azimuth;
+      EXPECT_NEAR(path.end.y, m12, 2e-11 * s) << azimuth;
+      EXPECT_NEAR(path.end.dy, M21, 2e-11 * s) << azimuth;
+    }
+  }
+}
+
+TEST_P(EllipsoidOfRevolution, ReducedLengthVanishesAtTheFirstConjugatePoint) {
+  const double a = 2.0, f = GetParam();
+  const Ellipsoid ellipsoid(a, a, a * (1.0 - f));
+  const GeographicLib::GeodesicExact exact(a, f);
+  for (int i = 0; i < 30; ++i) {
+    const double latitude = -60.0 + 4.0 * i, azimuth = 12.0 * i;
+    const Uv p{0.0, reduced(latitude, f)};
+    const auto conjugate = first_conjugate_point(ellipsoid, p, (90.0 - azimuth) * kDegree, 12.0);
+    ASSERT_TRUE(conjugate);
+    double latitude2, longitude2, azimuth2, m12, M12, M21;
+    exact.Direct(latitude, 0.0, azimuth, conjugate->s, latitude2, longitude2, azimuth2, m12, M12, M21);
+    EXPECT_NEAR(m12, 0.0, 1e-10) << latitude << ' ' << azimuth;
+    EXPECT_GT(conjugate->s, 4.0);
   }
 }
 

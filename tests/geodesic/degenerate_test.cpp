@@ -1,0 +1,147 @@
+// Places where a surface's map has no tangent plane: a path ends before them with their place, or goes on right.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "geodesic/integrator.h"
+#include "support/differences.h"
+#include "support/geodesic_oracles.h"
+#include "surface/analytic_surfaces.h"
+#include "surface/bspline_surface.h"
+#include "surface/forms.h"
+
+namespace geovor {
+namespace {
+
+using namespace testing;
+const UvBox kSquare{{-4.0, 4.0}, {-4.0, 4.0}};
+constexpr int kManySteps = 3000;  // each a sixtieth nearer to the bad line, down to a part in 1e13
+
+// The wave with x = u^3: Su = 0 on the border u = 0.
+class CubedWave final : public Surface {
+ public:
+  SurfaceKind kind() const override { return SurfaceKind::Function; }
+  UvBox domain() const override { return {{0.0, 1.5}, {-4.0, 4.0}}; }
+  SurfaceJet jet(Uv p) const override {
+    const double x1 = 3.0 * p.u * p.u, x2 = 6.0 * p.u;
+    const SurfaceJet w = WaveSurface(kSquare).jet({p.u * p.u * p.u, p.v});
+    return {w.S, x1 * w.Su, w.Sv, x1 * x1 * w.Suu + x2 * w.Su, x1 * w.Suv, w.Svv};
+  }
+  using Surface::jet;
+};
+
+// The wave with x = u^2: the map folds along u = 0, the normal turns about.
+class FoldedWave final : public Surface {
+ public:
+  SurfaceKind kind() const override { return SurfaceKind::Function; }
+  UvBox domain() const override { return {{-1.5, 1.5}, {-4.0, 4.0}}; }
+  SurfaceJet jet(Uv p) const override {
+    const double x1 = 2.0 * p.u;
+    const SurfaceJet w = WaveSurface(kSquare).jet({p.u * p.u, p.v});
+    return {w.S, x1 * w.Su, w.Sv, x1 * x1 * w.Suu + 2.0 * w.Su, x1 * w.Suv, w.Svv};
+  }
+  using Surface::jet;
+};
+
+// A polynomial cone over a parabola; its tip is the side v = 0.
+BSplineSurface spike() {
+  std::vector<Xyz> poles;
+  for (const Xyz& out : {Xyz(1.0, 0.0, 1.0), Xyz(1.0, 1.0, 1.5), Xyz(0.0, 1.0, 1.0)}) {
+    poles.push_back(Xyz::Zero());
+    poles.push_back(out);
+  }
+  return {KnotVector({0.0, 1.0}, {3, 3}, 2), KnotVector({0.0, 1.0}, {2, 2}, 1), poles};
+}
+
+void expect_no_nonsense(const TraceResult& r) {
+  EXPECT_TRUE(is_finite(r.end.p));
+  EXPECT_TRUE(std::isfinite(r.end.y) && std::isfinite(r.end.dy) && std::isfinite(r.length));
+  EXPECT_LT(r.steps, kManySteps);
+}
+
+// Where the path is told, it is that of the wave in its own parameters; where it is not, it is told where it ends.
+template <class Bad>
+void expect_wave(const Bad& bad, double (*x_of_u)(double), double u, double angle, bool bounded) {
+  const WaveSurface wave(kSquare);
+  const Uv p{u, 0.3}, q{x_of_u(u), 0.3};
+  const Xyz T = push_forward(wave.jet(q), heading(wave, q, angle));
+  TraceOptions options;
+  options.stop_at_domain = bounded;
+  GeodesicIntegrator path(bad, p, T, 0.8, options);
+  path.advance(0.8);
+  const TraceResult r{path.status(), path.state(), path.covered(), path.steps(), path.evaluations()};
+  SCOPED_TRACE(::testing::Message() << u << ' ' << angle << ' ' << int(r.status));
+  expect_no_nonsense(r);
+  if (r.length == 0.0) return;
+  const TraceResult plain = trace_geodesic(wave, q, heading(wave, q, angle), r.length);
+  EXPECT_LT((bad.position(r.end.p) - wave.position(plain.end.p)).norm(), 1e-9);
+  if (r.status != TraceStatus::Converged) {
+    EXPECT_LT(std::abs(plain.end.p.u), 1e-9);
+  }
+}
+
+TEST(DegenerateMetric, BorderWithoutSpeedIsReachedAndNamed) {
+  const CubedWave bad;
+  for (const bool bounded : {true, false})
+    for (const double u : {1.0, 0.3, 1e-2, 1e-3})
+      for (const double angle : {0.0, 0.5, 1.5, std::numbers::pi / 2.0, 2.0, 3.0, std::numbers::pi, -2.0})
+        expect_wave(
+            bad, +[](double x) { return x * x * x; }, u, angle, bounded);
+}
+
+TEST(DegenerateMetric, FoldIsReachedAndNamed) {
+  const FoldedWave bad;
+  for (const double u : {1.0, 0.3, 1e-2, 1e-4})
+    for (const double angle : {0.0, 0.5, 1.5, std::numbers::pi / 2.0, 2.0, 3.0, std::numbers::pi, -2.0})
+      expect_wave(
+          bad, +[](double x) { return x * x; }, u, angle, true);
+}
+
+// Starts on the bad line, and as near to it as numbers go, in all directions.
+TEST(DegenerateMetric, StartsOnAndBesideTheBadLineEndInAStatus) {
+  const CubedWave cubed;
+  const FoldedWave folded;
+  const BSplineSurface tip = spike();
+  for (const Surface* bad : std::initializer_list<const Surface*>{&cubed, &folded, &tip})
+    for (const double offset : {0.0, 1e-300, 1e-100, 1e-20, 1e-12, 1e-8, 1e-5})
+      for (int i = 0; i < 8; ++i) {
+        const Uv p = bad == &tip ? Uv{0.4, offset} : Uv{offset, 0.3};
+        const UvVec d{std::cos(0.8 * i), std::sin(0.8 * i)};
+        const TraceResult r = trace_geodesic(*bad, p, d, 0.7);
+        SCOPED_TRACE(::testing::Message() << offset << ' ' << i << ' ' << int(r.status));
+        EXPECT_TRUE(is_finite(r.end.p) && std::isfinite(r.end.y) && std::isfinite(r.length));
+        if (offset == 0.0) {
+          EXPECT_THAT(r.status, ::testing::AnyOf(TraceStatus::DegenerateMetric, TraceStatus::LeftDomain));
+          EXPECT_EQ(r.end.p, p);
+          EXPECT_EQ(r.length, 0.0);
+        }
+      }
+}
+
+// A line on the cone to its tip: the length is the distance.
+TEST(DegenerateMetric, TipOfASpikeEndsThePath) {
+  const BSplineSurface tip = spike();
+  for (const double u : {0.2, 0.5, 0.9}) {
+    const Uv p{u, 0.7};
+    TraceOptions options;
+    options.stop_at_domain = false;
+    const TraceResult r = trace_geodesic(tip, p, {0.0, -1.0}, 5.0, options);
+    expect_no_nonsense(r);
+    EXPECT_EQ(r.status, TraceStatus::DegenerateMetric);
+    EXPECT_NEAR(r.length, tip.position(p).norm(), 1e-9);
+    EXPECT_NEAR(r.end.p.v, 0.0, 1e-9);
+  }
+}
+
+TEST(DegenerateMetric, DirectionsWithoutLengthEndAtTheStart) {
+  const WaveSurface wave(kSquare);
+  for (const UvVec d : {UvVec{0.0, 0.0}, UvVec{std::nan(""), 1.0}}) {
+    const TraceResult r = trace_geodesic(wave, {0.1, 0.2}, d, 1.0);
+    EXPECT_EQ(r.status, TraceStatus::DegenerateMetric);
+    EXPECT_EQ(r.length, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace geovor
