@@ -50,7 +50,7 @@ Errors errors(const Surface& surface, const UvBox& starts, double length, double
   return e;
 }
 
-// The wave interpolated at the Greville points of a bicubic with spans of 0.3.
+// A bicubic with spans of 0.3 whose poles are the wave at the Greville points: a sheet of the wave's curvatures.
 BSplineSurface spline_wave() {
   constexpr int kSpans = 40;
   constexpr double L = 6.0;
@@ -58,7 +58,6 @@ BSplineSurface spline_wave() {
   for (int i = 1; i < kSpans; ++i) knots.push_back(-L + 2.0 * L * i / kSpans);
   knots.insert(knots.end(), 4, L);
   const int n = static_cast<int>(knots.size()) - 4;
-  // Heights sampled at the Greville points: not the wave, but a wave-like sheet with the same spans and curvatures.
   std::vector<Xyz> poles;
   const auto greville = [&](int i) { return (knots[i + 1] + knots[i + 2] + knots[i + 3]) / 3.0; };
   for (int i = 0; i < n; ++i)
