@@ -134,10 +134,11 @@ class Readers(ProgramTest):
         gmsh = shutil.which("gmsh")
         require(self, gmsh, "gmsh")
         self.succeed("distance", sample("sphere.step"), "--from", "0,0", "--to", "1,0", "-o", "path.step")
-        self.write("look.geo", 'Merge "path.step"; curves() = Curve{:}; Printf("curves %g", #curves());')
+        self.write("look.geo", 'Merge "path.step";\ncurves() = Curve{:};\nPrintf("curves %g", #curves());\n')
         done = subprocess.run([gmsh, "look.geo", "-parse_and_exit"], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
-        self.assertIn("curves 1", done.stdout)
+        self.assertIn("\ncurves 1\n", done.stdout)
+        self.assertIn("'Shapes/path'", done.stdout)
 
 
 if __name__ == "__main__":
