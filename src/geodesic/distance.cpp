@@ -7,6 +7,7 @@
 #include "geodesic/closed_forms.h"
 #include "geodesic/fan.h"
 #include "geodesic/graph_path.h"
+#include "geodesic/integrator.h"
 #include "geodesic/relax.h"
 
 namespace geovor {
@@ -104,16 +105,24 @@ std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Conn
   return DomainExit{path.end.p, path.length};
 }
 
-// Every direction is as good where the paths meet again whatever their angle: one that leaves a radian beside arrives
-// as well. Only where the paths' ends are conjugate need that be tried.
+// Every direction is as good where a few others, followed as far, end at the same point too. Only where the paths' ends
+// are conjugate need that be tried; on a sphere conjugate points are opposite ones.
 bool is_family(const Surface& surface, Uv from, Uv to, const Connection& c, const DistanceOptions& options) {
-  constexpr double kConjugate = 1e-6, kTurn = 1.0;
+  constexpr double kConjugate = 1e-6, kOpposite = 1e-14, kErrors = 100.0;
+  if (has_closed_form(surface))
+    return surface.kind() == SurfaceKind::Sphere && std::abs(c.y) <= kOpposite * c.length && c.length > 0.0;
   if (!(c.length > 0.0 && std::abs(c.y) <= kConjugate * c.length)) return false;
-  ConnectOptions once = options.connect;
-  once.persist = false;
-  const Connection other = connect(surface, from, to, Polar{c.length, c.angle + kTurn}, once);
-  return other.status == ConnectStatus::Converged && std::abs(other.length - c.length) <= kSameLength * c.length &&
-         std::abs(std::remainder(other.angle - c.angle - kTurn, 2.0 * M_PI)) <= kSameAngle;
+  const TangentFrame frame = tangent_frame(surface, from);
+  const Xyz target = surface.position(to);
+  TraceOptions trace;
+  trace.tolerance = options.connect.tolerance;
+  trace.stop_at_domain = false;
+  for (const double turn : {1.0, 2.5, 4.0}) {
+    GeodesicIntegrator path(surface, from, frame.at_angle(c.angle + turn), c.length, trace);
+    if (path.advance(c.length) != TraceStatus::Converged) return false;
+    if (!((path.at().S - target).norm() <= kErrors * options.connect.tolerance * c.length)) return false;
+  }
+  return true;
 }
 
 void conclude(const Surface& surface, Uv from, Uv to, const DistanceOptions& options, DistanceResult& result) {
@@ -126,6 +135,7 @@ void conclude(const Surface& surface, Uv from, Uv to, const DistanceOptions& opt
   for (const Connection& c : result.candidates)
     if (c.length <= tie) result.shortest_paths.push_back(c);
   result.family = is_family(surface, from, to, result.shortest, options);
+  if (result.family) result.shortest_paths.resize(1);
   result.leaves_at = first_exit(surface, from, result.shortest);
 }
 

@@ -83,6 +83,7 @@ struct Demand {
   double place;   // residual from which the step, of second order, leaves a part of the tolerance
   double y;       // error allowed in y
   double y_turn;  // how much y changes with the angle: by the third power of the length in curvature radii
+  double turn_per_miss;
   double finest;  // the integrator's tolerance of the last shot
 
   Demand(const Shot& shot, const Ends& ends, double tolerance) : finest(kIntegratorShare * tolerance) {
@@ -93,9 +94,13 @@ struct Demand {
     least = kNoise * tolerance;
     y = kErrorsOfY * tolerance;
     y_turn = bend * bend * bend;
+    turn_per_miss = std::max(1.0, s / std::abs(shot.state.y));
   }
-  // `slope_error`: of the slope by which y is corrected, see YSlope.
-  double miss_allowed(double slope_error) const { return std::max(least, std::min(place, y / (y_turn * slope_error))); }
+  // `slope_error`: of the slope by which y is corrected, see YSlope. A miss turns the path by so much more as y is less
+  // than the length.
+  double miss_allowed(double slope_error) const {
+    return std::max(least, std::min(place, y / (y_turn * slope_error * turn_per_miss)));
+  }
 };
 
 // dy/dt, from the two shots that tell it best; its error is in parts of what Demand takes for the slope itself.
@@ -111,6 +116,8 @@ struct YSlope {
     if (!(error_here < error)) return;
     error = error_here;
     value = (shot.state.y - before.state.y - 0.5 * (before.state.dy + shot.state.dy) * step.s) / step.t;
+    // On a sphere, say, there is none, and noise must not be taken for one.
+    if (std::abs(value) < kNoise * (error_here - std::abs(step.t)) * shot.aim.s) value = 0.0;
   }
 };
 
@@ -152,7 +159,8 @@ Connection corrected(const Surface& surface, const Ends& ends, const Shot& shot,
   constexpr double kNoTurn = 1e-3;
   const Polar aim = shot.aim;
   Polar step = newton_step(shot);
-  if (!(std::abs(step.t) < kNoTurn)) step = {shot.a, 0.0};
+  if (!(std::abs(step.t) < kNoTurn)) step.t = 0.0;
+  if (!(std::abs(step.s - shot.a) <= std::abs(shot.b))) step.s = shot.a;
   Connection c;
   c.status = ConnectStatus::Converged;
   c.length = aim.s + step.s;
