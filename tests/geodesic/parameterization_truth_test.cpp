@@ -58,7 +58,7 @@ class CubedMap final : public ParameterMap {
   explicit CubedMap(Interval range) : range_(range) {}
   Jet jet(double t) const override {
     const double w = range_.length();
-    return {range_.lo + w * t * t * t, 3.0 * w * t * t, 6.0 * w * t};
+    return {range_.lo + w * t * t * t, 3.0 * w * t * t, 6.0 * w * t, 6.0 * w};
   }
   double inverse(double x) const override { return std::cbrt((x - range_.lo) / range_.length()); }
 
@@ -72,7 +72,7 @@ class SmoothstepMap final : public ParameterMap {
   explicit SmoothstepMap(Interval range) : range_(range) {}
   Jet jet(double t) const override {
     const double w = range_.length();
-    return {range_.lo + w * t * t * (3.0 - 2.0 * t), 6.0 * w * t * (1.0 - t), w * (6.0 - 12.0 * t)};
+    return {range_.lo + w * t * t * (3.0 - 2.0 * t), 6.0 * w * t * (1.0 - t), w * (6.0 - 12.0 * t), -12.0 * w};
   }
   double inverse(double x) const override {
     if (!std::isfinite(x)) return x;
