@@ -4,15 +4,14 @@
 #pragma once
 
 #include <array>
-#include <utility>
 
 #include "surface/knot_vector.h"
 
 namespace geovor {
 
 /// Values (row 0) and derivatives up to order `Orders - 1` of the p + 1 functions that do not vanish on a span.
-template <int Orders, int MaxDegree>
-using BasisRows = std::array<std::array<double, MaxDegree + 1>, Orders>;
+template <int Orders>
+using BasisRows = std::array<std::array<double, kMaxDegree + 1>, Orders>;
 
 namespace detail {
 
@@ -42,30 +41,22 @@ inline void differentiate(const double* from, double* to, int q, const double* r
 
 }  // namespace detail
 
-/// `Degree` > 0 fixes the degree at compile time (and must be the knots' degree); 0 reads it from the knots.
-template <int Orders, int Degree, int MaxDegree = Degree == 0 ? kMaxDegree : Degree>
-inline void basis_functions(const KnotVector& knots, int span, double x, BasisRows<Orders, MaxDegree>& rows) {
-  const int p = Degree == 0 ? knots.degree() : Degree;
+template <int Orders>
+inline void basis_functions(const KnotVector& knots, int span, double x, BasisRows<Orders>& rows) {
+  const int p = knots.degree();
   const double* t = &knots.flat()[span];
   const double* reciprocals = knots.reciprocals(span);
   auto triangle = [reciprocals](int q) { return reciprocals + q * (q - 1) / 2; };
 
   double* N = rows[0].data();
-  // Takes N from degree q - 1 to q, and starts the derivative whose order is p - q from there.
-  auto level = [&](int q) {
+  N[0] = 1.0;
+  for (int q = 0; q <= p; ++q) {
     if (q > 0) detail::raise(N, q, triangle(q), t, x);
+    // The derivative of order p - q starts from the functions of degree q.
     const int order = p - q;
-    if (order <= 0 || order >= Orders) return;
+    if (order <= 0 || order >= Orders) continue;
     double* D = rows[order].data();
     for (int up = q + 1; up <= p; ++up) detail::differentiate(up == q + 1 ? N : D, D, up, triangle(up));
-  };
-  N[0] = 1.0;
-  if constexpr (Degree > 0) {
-    // Written out level by level: as a loop over q the compiler keeps it rolled, at twice the time.
-    [&]<int... Q>(std::integer_sequence<int, Q...>) { (level(Q), ...); }
-    (std::make_integer_sequence<int, Degree + 1>{});
-  } else {
-    for (int q = 0; q <= p; ++q) level(q);
   }
   for (int order = 1; order < Orders; ++order)
     if (order > p) rows[order].fill(0.0);

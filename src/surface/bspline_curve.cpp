@@ -42,8 +42,8 @@ BSplineCurve<Dim>::BSplineCurve(KnotVector knots, const std::vector<Point>& pole
 
 template <int Dim>
 CurveJet<Dim> BSplineCurve<Dim>::evaluate(int span, double t) const {
-  BasisRows<kOrders, kMaxDegree> N;
-  basis_functions<kOrders, 0>(knots_, span, t, N);
+  BasisRows<kOrders> N;
+  basis_functions<kOrders>(knots_, span, t, N);
   const int p = knots_.degree(), first = span - p;
   Point A[kOrders];
   for (int k = 0; k < kOrders; ++k) {

@@ -25,9 +25,9 @@ Xyz quotient(const Derivatives& d, Xyz (&S)[kOrders][kOrders], int i, int j) {
 }  // namespace
 
 SurfaceThirds BSplineSurface::third(Uv p, const Span& span) const {
-  BasisRows<kOrders, kMaxDegree> Nu, Nv;
-  basis_functions<kOrders, 0>(u_knots_, span.u, u_knots_.unwind(p.u, span.u, span.box.u), Nu);
-  basis_functions<kOrders, 0>(v_knots_, span.v, v_knots_.unwind(p.v, span.v, span.box.v), Nv);
+  BasisRows<kOrders> Nu, Nv;
+  basis_functions<kOrders>(u_knots_, span.u, u_knots_.unwind(p.u, span.u, span.box.u), Nu);
+  basis_functions<kOrders>(v_knots_, span.v, v_knots_.unwind(p.v, span.v, span.box.v), Nv);
   const int first_u = span.u - u_knots_.degree(), first_v = span.v - v_knots_.degree();
   Derivatives d;
   for (auto& row : d.at)
