@@ -152,6 +152,7 @@ bool PolarMap::tabulate_rays() {
   constexpr double kWhole = 1e-9;  // a wedge that leaves a slit finer than this is a full turn
   if (turn > 2.0 * kPi + kWhole) return false;
   full_turn_ = turn > 2.0 * kPi - kWhole;
+  if (full_turn_ && !map_.u_knots().wraps()) return false;
   wedge_ = {table.front().angle, table.back().angle};
   for (int i = 1; !full_turn_ && i <= kBeyond; ++i) {
     const Ray next = follow(table.back(), at(kRays + i));
@@ -222,6 +223,24 @@ HeightJet PolarMap::graph(const Foot& foot, Uv ab) {
   second = inverse.transpose() * second * inverse;
   const double height = j.S.z() + slope.x() * (ab.u - j.S.x()) + slope.y() * (ab.v - j.S.y());
   return {height, slope.x(), slope.y(), second(0, 0), second(0, 1), second(1, 1)};
+}
+
+// The piece before the line runs on a quarter of a span beyond it: far enough to tell other functions apart.
+double PolarMap::mismatch(double r) const {
+  constexpr double kBeyond = 0.25;
+  const std::vector<double>& lines = map_.u_knots().lines();
+  double worst = 0.0;
+  for (size_t k = full_turn_ ? 0 : 1; k + 1 < lines.size(); ++k) {
+    const double before = k > 0 ? lines[k] - lines[k - 1] : lines.back() - lines[lines.size() - 2];
+    const double w = lines[k] + kBeyond * std::min(before, lines[k + 1] - lines[k]);
+    const Span piece = map_.span({lines[k], 0.0}, {-1.0, 1.0});
+    const SurfaceJet m = map_.jet({w, 0.0}, piece);
+    const Xyz S = map_.jet({w, r / std::hypot(m.Sv.x(), m.Sv.y())}, piece).S;
+    const std::optional<Foot> other = foot({S.x(), S.y()});
+    if (!other) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, std::abs(S.z() - graph(*other, {S.x(), S.y()}).f));
+  }
+  return worst;
 }
 
 bool PolarMap::second_form(HeightJet& h) const {

@@ -16,7 +16,7 @@ namespace geovor {
 class PolarMap {
  public:
   /// Nothing if the side is no single point to rounding, or the surface has no tangent plane there, or its rays from
-  /// the pole overlap.
+  /// the pole overlap, or they turn once round though the surface is not closed: the slit is a border then.
   static std::optional<PolarMap> make(const BSplineSurface& surface, const PoleSide& side);
 
   const Frame& frame() const { return frame_; }
@@ -36,6 +36,12 @@ class PolarMap {
 
   /// Whether the second derivatives at the pole are the same from all directions; these are then `h`.
   bool second_form(HeightJet& h) const;
+
+  /// At most how far apart, in height, the pieces on the two sides of a line w = const (a knot, the seam) are at the
+  /// distance r, each taken as the continuation of the other; infinite where that can't be told. The rounding of the
+  /// poles' coordinates is `rounding()`.
+  double mismatch(double r) const;
+  double rounding() const { return rounding_; }
 
   /// The domain of w, and the depth up to the first knot line.
   Interval along() const { return map_.domain().u; }

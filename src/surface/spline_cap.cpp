@@ -9,8 +9,6 @@
 namespace geovor {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Nearer to the pole than this part of the radius the osculating paraboloid is the surface, to rounding.
 constexpr double kLimit = 1e-18;
 
@@ -20,7 +18,12 @@ constexpr double kDisk = 0.25;
 // Newton's method is tried out on this many directions, and somewhat beyond the disk.
 constexpr int kDirections = 32;
 constexpr double kBeyond = 1.45;  // the corners of the square around the disk
-constexpr int kHalvings = 12;
+constexpr int kHalvings = 24;
+
+// A path in the chart doesn't see the knot lines that run into the pole. Where the surface is another function on the
+// other side of one, by the height d, a path that crosses it is off by about d / (radius of curvature): the disk is
+// made so small that d stays below this part of its first radius.
+constexpr double kSmoothAcross = 1e-14;
 
 // Slopes up to this are still a graph with well-conditioned derivatives.
 constexpr double kSteepest = 1.0;
@@ -90,9 +93,10 @@ std::shared_ptr<const PoleChart> cap_at(const BSplineSurface& surface, const Pol
   const double bend = std::hypot(at_pole.fuu, std::numbers::sqrt2 * at_pole.fuv, at_pole.fvv);
   double radius = map->speed().lo * map->depth();
   if (bend * radius > kDisk) radius = kDisk / bend;
+  const double most = kSmoothAcross * radius + map->rounding();
   double depth = 0.0;
   for (int i = 0; i < kHalvings; ++i, radius *= 0.5)
-    if (ring_is_good(*map, kBeyond * radius, depth))
+    if (map->mismatch(kBeyond * radius) <= most && ring_is_good(*map, kBeyond * radius, depth))
       return std::make_shared<const SplineCap>(std::move(*map), side, radius, depth, at_pole);
   return nullptr;
 }

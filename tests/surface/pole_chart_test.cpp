@@ -374,5 +374,71 @@ TEST(TangentFrame, AtTheTipOfAConeIsTheLimitAlongTheRuling) {
   EXPECT_LT((tip.e1 - above.e1).norm() + (tip.n - above.n).norm(), 1e-15);
 }
 
+/// The paraboloid z = r^2 / 2 over the unit disk, biquadratic in u and quartic in the radius, with one pole of the
+/// fourth row lifted by `lift`: 4 lift t^3 (1 - t) times a function of u that has creases at two knots. `gap` opens the
+/// seam.
+BSplineSurface creased_paraboloid(double lift, double gap) {
+  const double kHalf = std::numbers::sqrt2 / 2.0;
+  const double around[9][3] = {{1, 0, 1},       {1, 1, kHalf}, {0, 1, 1},      {-1, 1, kHalf}, {-1, 0, 1},
+                               {-1, -1, kHalf}, {0, -1, 1},    {1, -1, kHalf}, {1, 0, 1}};
+  std::vector<Xyz> poles;
+  std::vector<double> weights;
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < 5; ++j) {
+      const double r = j / 4.0, z = j * (j - 1) / 24.0;
+      poles.push_back({r * around[i][0], r * around[i][1], z + (i == 2 && j == 3 ? lift : 0.0)});
+      if (i == 8 && j >= 2) poles.back().z() += gap;
+      weights.push_back(around[i][2]);
+    }
+  return {KnotVector({0, 1, 2, 3, 4}, {3, 2, 2, 2, 3}, 2), KnotVector({0, 1}, {5, 5}, 4), poles, weights};
+}
+
+/// A path in a chart meets no knot: where creases run into the pole the disk is so small that they are not felt.
+TEST(PoleChart, IsSmallWhereCreasesRunIntoThePole) {
+  ASSERT_EQ(creased_paraboloid(0.0, 0.0).poles().size(), 1u);
+  EXPECT_GT(creased_paraboloid(0.0, 0.0).poles().front()->radius(), 0.1);
+  for (const double lift : {1e-3, 0.1}) {
+    const BSplineSurface surface = creased_paraboloid(lift, 0.0);
+    ASSERT_EQ(surface.poles().size(), 1u);
+    const PoleChart& chart = *surface.poles().front();
+    EXPECT_GT(chart.radius(), 1e-6);
+    for (int i = 0; i < 200; ++i) {
+      const double t = 2.0 * std::numbers::pi * i / 200, r = chart.radius();
+      EXPECT_NEAR(chart.jet({r * std::cos(t), r * std::sin(t)}).S.z(), 0.5 * r * r, 1e-14);
+    }
+  }
+}
+
+/// The last row of poles is off the first one by what CAD files allow: the slit between them is a border.
+TEST(PoleChart, IsNoneWhereTheSeamIsOpen) {
+  for (const double gap : {1e-12, 1e-9, 1e-7}) {
+    const BSplineSurface surface = creased_paraboloid(0.0, gap);
+    EXPECT_FALSE(surface.u_period());
+    EXPECT_TRUE(surface.poles().empty()) << gap;
+  }
+  EXPECT_TRUE(creased_paraboloid(0.0, 1e-16).u_period());
+}
+
+/// A side that is one point only within CAD's tolerance is an ordinary, short side.
+TEST(PoleChart, IsNoneWhereTheSideIsAPointOnlyNearly) {
+  for (const double off : {1e-13, 1e-9, 1e-7}) {
+    const BSplineSurface exact = creased_paraboloid(0.0, 0.0);
+    std::vector<Xyz> poles;
+    std::vector<double> weights;
+    for (int i = 0; i < 9; ++i)
+      for (int j = 0; j < 5; ++j) {
+        poles.push_back(exact.centre() + exact.pole(i, j));
+        if (i == 1 && j == 0) poles.back().z() += off;
+        weights.push_back(exact.weight(i, j));
+      }
+    const BSplineSurface surface(exact.u_knots(), exact.v_knots(), poles, weights);
+    EXPECT_TRUE(surface.poles().empty()) << off;
+    for (int k = 0; k <= 16; ++k) {
+      const TangentFrame f = tangent_frame(surface, {0.25 * k, 0.0});
+      EXPECT_TRUE(f.S.allFinite());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace geovor
