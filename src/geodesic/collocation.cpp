@@ -24,10 +24,10 @@ constexpr int kMostIterations = 12;
 // The scalar equation is solved by iterating with the inverse of d2/dk2, which contracts by L^2 |K| / pi^2.
 constexpr double kLargestCurvature = 2.5;
 
-// A move below this, in parts of the length, leaves nothing (its square) for the path itself. Directions and y are
-// those before the move; they change with it by the square of the length in curvature radii. A polynomial of low degree
-// has told what it can where moves are below the other.
-constexpr double kSettled = 1e-12;
+// A move below the tolerance, in parts of the length, leaves nothing (its square) for the path itself. Directions and y
+// are those before the move; they change with it by the square of the length in curvature radii. Rounding moves nodes
+// by less than the finest. A polynomial of low degree has told what it can where moves are below the last.
+constexpr double kFinest = 1e-14;
 constexpr double kRoughlySettled = 1e-3;
 
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1>;
@@ -119,7 +119,10 @@ class Collocation {
 
 // The cubic through the ends with the directions that the chord suggests; the straight line where it suggests none.
 Collocation::Collocation(const Surface& surface, const Ends& ends, double tolerance)
-    : surface_(surface), ends_(ends), piece_(surface, ends.from, ends.to - ends.from, false), tolerance_(tolerance) {
+    : surface_(surface),
+      ends_(ends),
+      piece_(surface, ends.from, ends.to - ends.from, false),
+      tolerance_(std::max(tolerance, kFinest)) {
   start_on(0);
   const UvVec way = ends.to - ends.from;
   UvVec first = way, last = way;
@@ -227,7 +230,7 @@ double Collocation::tail() const {
 
 // The coefficients fall geometrically.
 std::size_t Collocation::level_wanted() const {
-  const double degree = kDegrees[level_] * std::log(kSettled) / std::log(std::min(tail(), 0.5));
+  const double degree = kDegrees[level_] * std::log(tolerance_) / std::log(std::min(tail(), 0.5));
   std::size_t level = level_;
   while (level < kDegrees.size() && kDegrees[level] < degree) ++level;
   return level;
@@ -235,7 +238,7 @@ std::size_t Collocation::level_wanted() const {
 
 std::optional<Connection> Collocation::solve() {
   const double bend = std::min(1.0, (ends_.at_to.S - ends_.at_from.S).norm() * ends_.curvature);
-  const double settled = kSettled / std::max(bend * bend, kRoughlySettled);
+  const double settled = tolerance_ / std::max(bend * bend, kRoughlySettled);
   double before = 0.5;
   for (int i = 0; i < kMostIterations; ++i) {
     if (!newton_step() || !(move_ < before)) return std::nullopt;
