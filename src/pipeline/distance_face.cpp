@@ -20,8 +20,8 @@ constexpr double kOfTolerance = 1e-2;
 // Of the path's length: the curve's own length then equals the distance to 1e-9 for paths that turn by a few hundred
 // radians.
 constexpr double kOfLength = 1e-11;
-// Of the coordinates, some ulps: below it nothing is measured.
-constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+// Of the coordinates, the rounding of a surface's evaluation: below it nothing is measured.
+constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 // Patches of a picture: some 4 units high on a usual page; its border lies within this part of the model's size.
 constexpr int kRasterRows = 160;
@@ -42,6 +42,8 @@ double sag_in_parameters(const Surface& surface, const PathPoint& a, const PathP
 double sag_in_space(const PathPoint& a, const PathPoint& middle, const PathPoint& b) {
   return (0.5 * (a.xyz + b.xyz) - middle.xyz).norm();
 }
+
+double rounding_at(const Xyz& x) { return kRounding * x.cwiseAbs().maxCoeff(); }
 
 void warn(FaceDistance& d) {
   if (d.leaves_face()) {
@@ -82,7 +84,7 @@ double FaceDistances::outside(const FacePlace& place) const {
 std::optional<FaceExit> FaceDistances::find_exit(const SurfacePath& path, const FacePlace& from,
                                                  const FacePlace& to) const {
   const std::vector<PathPoint> points = sample_path(path, [&](const auto& a, const auto& middle, const auto& b) {
-    return sag_in_parameters(surface(), a, middle, b) <= kPolylineShare * tolerance_;
+    return sag_in_parameters(surface(), a, middle, b) <= std::max(kPolylineShare * tolerance_, rounding_at(middle.xyz));
   });
   std::vector<Uv> line;
   for (const PathPoint& p : points) line.push_back(p.uv);
@@ -103,7 +105,7 @@ FacePath FaceDistances::follow(const FacePlace& from, const FacePlace& to, const
   const SurfacePath path(surface(), from.uv, connection);
   FacePath found;
   found.connection = connection;
-  const double deviation = kPolylineDeviation * path.length();
+  const double deviation = std::max(kPolylineDeviation * path.length(), rounding_at(from.xyz));
   found.points = sample_path(path, [&](const auto& a, const auto& middle, const auto& b) {
     return sag_in_space(a, middle, b) <= deviation && sag_in_parameters(surface(), a, middle, b) <= deviation;
   });
@@ -131,9 +133,9 @@ FaceDistance FaceDistances::between(const FacePlace& from, const FacePlace& to) 
 }
 
 double FaceDistances::spline_deviation(const FacePath& path) const {
-  double coordinates = 0.0;
-  for (const PathPoint& p : path.points) coordinates = std::max(coordinates, p.xyz.cwiseAbs().maxCoeff());
-  return std::max(kRounding * coordinates, std::min(kOfTolerance * tolerance_, kOfLength * path.connection.length));
+  double rounding = 0.0;
+  for (const PathPoint& p : path.points) rounding = std::max(rounding, rounding_at(p.xyz));
+  return std::max(rounding, std::min(kOfTolerance * tolerance_, kOfLength * path.connection.length));
 }
 
 CadCurve FaceDistances::spline(const FacePlace& from, const FacePath& path, const std::string& name) const {

@@ -6,8 +6,9 @@
 namespace geovor {
 namespace {
 
-// Halvings of a piece of the path, at most: it ends at a place where the path has no tangent.
-constexpr int kMostHalvings = 16;
+// Halvings of a piece of the path, at most. Each divides the error by 64: eight reach rounding, and end the search
+// where the path has no tangent.
+constexpr int kMostHalvings = 8;
 
 constexpr int kDegree = 5;
 using Bezier = std::array<Xyz, kDegree + 1>;

@@ -143,6 +143,19 @@ TEST(PathSpline, LiesOnAWaveAndIsAsLongAsThePath) {
   EXPECT_NEAR(c.length(), length, 1e-9 * length);
 }
 
+// The length is a part of 1e-11 of the coordinates: what is asked of the polyline and the curve lies below rounding.
+TEST(PathSpline, OfAShortPathFarFromTheOriginEndsAtRounding) {
+  Frame far;
+  far.origin = Xyz(1e4, -2e4, 3e4);
+  const TestFace torus = whole(std::make_shared<Torus>(far, 5.0, 2.0));
+  const FaceDistances distances(torus.model, torus.model.faces[0]);
+  const FaceDistance d =
+      distances.between(distances.place(Uv{1.0, 1.0}, false), distances.place(Uv{1.0 + 1e-7, 1.0 + 1e-7}, false));
+  ASSERT_EQ(d.paths.size(), 1u);
+  EXPECT_LT(d.paths[0].points.size(), 100u);
+  EXPECT_LT(distances.spline(d.from, d.paths[0], "short").knots.size(), 100u);
+}
+
 /// Two rectangles that meet at a right angle along the y axis: x from -2 to 0 on the floor, then up the wall.
 SurfacePtr corner_of_a_room() {
   std::vector<Xyz> poles;
