@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "surface/derived_caps.h"
+#include "surface/tangent_frame.h"
 
 namespace geovor {
 namespace {
@@ -17,10 +18,15 @@ constexpr double kPole = 1e-10;
 // At a pole the normal is taken this part of the domain further inside.
 constexpr double kPoleStep = 1e-7;
 
-bool is_pole(const SurfaceJet& b) {
+// Below this part the normal is asked of the pole's chart, which has all its digits.
+constexpr double kNearPole = 1e-3;
+
+bool small_area(const SurfaceJet& b, double part) {
   const double longest = std::max(b.Su.squaredNorm(), b.Sv.squaredNorm());
-  return !(b.Su.cross(b.Sv).norm() > kPole * longest);
+  return !(b.Su.cross(b.Sv).norm() > part * longest);
 }
+
+bool is_pole(const SurfaceJet& b) { return small_area(b, kPole); }
 
 // n = N / |N| and its derivatives from those of N = Bu x Bv.
 struct Normal {
@@ -57,10 +63,15 @@ Uv OffsetSurface::off_the_pole(Uv p) const {
   return {inward(box.u, p.u), inward(box.v, p.v)};
 }
 
+// NaN where the basis has no normal.
+Xyz OffsetSurface::moved(Uv p, const SurfaceJet& b) const {
+  if (small_area(b, kNearPole)) return b.S + distance_ * tangent_frame(*basis_, p).n;
+  return b.S + distance_ * b.Su.cross(b.Sv).normalized();
+}
+
 Xyz OffsetSurface::position(Uv p) const {
   const SurfaceJet b = basis_->jet(p);
-  if (is_pole(b)) return jet(p).S;
-  return b.S + distance_ * b.Su.cross(b.Sv).normalized();
+  return is_pole(b) ? jet(p).S : moved(p, b);
 }
 
 SurfaceJet OffsetSurface::jet(Uv p, const Span& span) const {
@@ -70,7 +81,8 @@ SurfaceJet OffsetSurface::jet(Uv p, const Span& span) const {
     const SurfaceJet inside = basis_->jet(q, span);
     if (is_pole(inside)) return b;  // degenerate all around: no normal to follow
     SurfaceJet j = jet(q, span);
-    j.S = b.S + (j.S - inside.S);
+    const Xyz S = moved(p, b);
+    j.S = S.allFinite() ? S : Xyz(b.S + (j.S - inside.S));
     return j;
   }
   const SurfaceThirds t = basis_->third(p, span);
@@ -83,7 +95,7 @@ SurfaceJet OffsetSurface::jet(Uv p, const Span& span) const {
   const Normal n(b, Nu, Nv);
 
   SurfaceJet j;
-  j.S = b.S + distance_ * n.n;
+  j.S = moved(p, b);
   j.Su = b.Su + distance_ * n.u;
   j.Sv = b.Sv + distance_ * n.v;
   j.Suu = b.Suu + distance_ * n.second(Nuu, Nu, Nu, n.u, n.u);

@@ -31,6 +31,7 @@ class OffsetSurface final : public Surface {
  private:
   PoleCharts make_poles() const override;
   Uv off_the_pole(Uv p) const;
+  Xyz moved(Uv p, const SurfaceJet& basis) const;
 
   SurfacePtr basis_;
   double distance_;

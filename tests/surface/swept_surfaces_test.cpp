@@ -111,6 +111,19 @@ TEST(OffsetSurface, HasDerivativesThatMatchDifferences) {
 }
 
 // Parallel surfaces: k' = k / (1 - d k) for the normal's own sign.
+/// Positions are exact at any distance from a pole, 0 included.
+TEST(OffsetSurface, OfASphereIsASphereUpToItsPoles) {
+  const OffsetSurface s(std::make_shared<Sphere>(Frame{}, 2.0), 0.5);
+  const Sphere larger({}, 2.5);
+  for (double depth : {1e-2, 1e-4, 1e-7, 1e-9, 1e-10, 1e-11, 1e-13, 0.0})
+    for (double sign : {-1.0, 1.0})
+      for (double u = 0.1; u < 6.0; u += 0.7) {
+        const Uv p{u, sign * (0.5 * std::numbers::pi - depth)};
+        EXPECT_LT((s.position(p) - larger.position(p)).norm(), 1e-15 * 4.0) << depth;
+        EXPECT_LT((s.jet(p).S - larger.position(p)).norm(), 1e-15 * 4.0) << depth;
+      }
+}
+
 TEST(OffsetSurface, HasTheCurvaturesOfAParallelSurface) {
   const auto wave = std::make_shared<WaveSurface>(UvBox{{0, 6}, {0, 6}});
   const double d = 0.3;
