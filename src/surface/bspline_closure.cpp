@@ -4,16 +4,14 @@
 #include <vector>
 
 #include "surface/bspline_surface.h"
+#include "surface/closure.h"
 
 namespace geovor {
 namespace {
 
-// Poles equal within this part of the largest coordinate are equal: what text with 15 digits leaves.
-constexpr double kSame = 1e-14;
-
-// Derivatives are differences of poles over spans: those of both sides agree within this multiple of the rounding of a
-// pole, degree over span a derivative.
-constexpr double kDerivative = 16.0;
+using closure::kDerivative;
+using closure::kMostSmooth;
+using closure::kSame;
 
 struct Ends {
   const BSplineSurface& surface;
@@ -62,14 +60,14 @@ std::vector<double> samples(const KnotVector& knots) {
   return found;
 }
 
-// The order, 2 at most, up to which the derivatives across the seam agree from both sides.
+// The order, kMostSmooth at most, up to which the derivatives across the seam agree from both sides.
 int measured_continuity(const Ends& ends, double rounding) {
   const KnotVector& knots = ends.knots();
   const auto& lines = knots.lines();
   const double span = std::min(lines[1] - lines[0], lines.back() - lines[lines.size() - 2]);
   const double rate = knots.degree() / span;
   const double first = kDerivative * rounding * rate, second = kDerivative * rounding * rate * rate;
-  int order = 2;
+  int order = kMostSmooth;
   for (const double x : samples(ends.in_u ? ends.surface.v_knots() : ends.surface.u_knots())) {
     auto side = [&](double at, double towards) {
       const Uv p = ends.in_u ? Uv{at, x} : Uv{x, at};

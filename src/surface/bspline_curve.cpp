@@ -1,10 +1,12 @@
 #include "surface/bspline_curve.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "base/error.h"
 #include "surface/bspline_basis.h"
+#include "surface/closure.h"
 
 namespace geovor {
 namespace {
@@ -38,6 +40,35 @@ BSplineCurve<Dim>::BSplineCurve(KnotVector knots, const std::vector<Point>& pole
     poles_.push_back(w * poles[i % n]);
     if (!weights.empty()) weights_.push_back(w);
   }
+  join_seam(poles);
+}
+
+// The ends are the same, and the curve is more than a point.
+template <int Dim>
+bool BSplineCurve<Dim>::closed(const std::vector<Point>& poles, double rounding) const {
+  if (!knots_.clamped(true) || !knots_.clamped(false)) return false;
+  if (!((poles.back() - poles.front()).cwiseAbs().maxCoeff() <= rounding)) return false;
+  if (rational() && !(std::abs(weights_.back() - weights_.front()) <= closure::kSame * weights_.front())) return false;
+  return std::any_of(poles.begin(), poles.end(),
+                     [&](const Point& p) { return (p - poles.front()).cwiseAbs().maxCoeff() > rounding; });
+}
+
+template <int Dim>
+void BSplineCurve<Dim>::join_seam(const std::vector<Point>& poles) {
+  double size = 0.0;
+  for (const Point& p : poles) size = std::max(size, p.cwiseAbs().maxCoeff());
+  const double rounding = closure::kSame * size;
+  if (knots_.periodic() || !closed(poles, rounding)) return;
+  const auto& lines = knots_.lines();
+  const double span = std::min(lines[1] - lines[0], lines.back() - lines[lines.size() - 2]);
+  const double rate = knots_.degree() / span;
+  const CurveJet<Dim> a = jet(lines.front(), piece(lines.front(), 1.0)),
+                      b = jet(lines.back(), piece(lines.back(), -1.0));
+  knots_.join_ends();
+  seam_continuity_ = closure::kMostSmooth;
+  const double bound = closure::kDerivative * rounding * rate;
+  if (!((a.d2 - b.d2).cwiseAbs().maxCoeff() <= bound * rate)) seam_continuity_ = 1;
+  if (!((a.d1 - b.d1).cwiseAbs().maxCoeff() <= bound)) seam_continuity_ = 0;
 }
 
 template <int Dim>
@@ -65,7 +96,7 @@ CurveJet<Dim> BSplineCurve<Dim>::evaluate(int span, double t) const {
 
 template <int Dim>
 std::optional<double> BSplineCurve<Dim>::period() const {
-  return knots_.periodic() ? std::optional(knots_.period()) : std::nullopt;
+  return knots_.wraps() ? std::optional(knots_.period()) : std::nullopt;
 }
 
 template <int Dim>
@@ -92,7 +123,7 @@ std::vector<double> BSplineCurve<Dim>::breaks(Interval range) const {
     if (range.lo < t && t < range.hi) inside.push_back(t);
   };
   const auto& lines = knots_.lines();
-  if (!knots_.periodic()) {
+  if (!knots_.wraps()) {
     for (size_t k = 1; k + 1 < lines.size(); ++k) add(lines[k]);
     return inside;
   }

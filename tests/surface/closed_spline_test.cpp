@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "support/splines.h"
+#include "surface/bspline_curve.h"
 #include "surface/bspline_surface.h"
+#include "surface/swept_surfaces.h"
 
 namespace geovor {
 namespace {
@@ -135,6 +137,33 @@ TEST(ClosedSpline, IsNotClosedAtAPoint) {
     for (const double x : {-1.0, 0.0, 1.0}) poles.push_back(Xyz(x * z, z * (1.0 - x * x), z));
   const BSplineSurface s(KnotVector({0.0, 1.0}, {4, 4}, 3), kLine, poles);
   EXPECT_FALSE(s.u_period());
+}
+
+/// Sweeps of a closed curve are closed: a circle as a clamped spline gives a torus and a cylinder.
+TEST(ClosedSpline, GivesClosedSweeps) {
+  const double kHalf = std::numbers::sqrt2 / 2.0;
+  std::vector<Xyz> poles;
+  std::vector<double> weights;
+  for (int i = 0; i < 9; ++i) {
+    const double t = 0.25 * std::numbers::pi * i, r = i % 2 == 1 ? std::numbers::sqrt2 : 1.0;
+    poles.push_back(i == 8 ? poles.front() : Xyz(3.0 + r * std::cos(t), 0.0, r * std::sin(t)));
+    weights.push_back(i % 2 == 1 ? kHalf : 1.0);
+  }
+  const auto circle =
+      std::make_shared<BSplineCurve<3>>(KnotVector({0, 1, 2, 3, 4}, {3, 2, 2, 2, 3}, 2), poles, weights);
+  const RevolutionSurface torus(circle, {0, 0, 0}, {0, 0, 1});
+  const ExtrusionSurface cylinder(circle, {0, 1, 0});
+  EXPECT_EQ(torus.v_period(), 4.0);
+  EXPECT_EQ(cylinder.u_period(), 4.0);
+  EXPECT_TRUE(torus.poles().empty());
+  for (double x = -6.003; x < 10.0; x += 0.07) {
+    const Xyz S = torus.position({0.3, x}), C = cylinder.position({x, 2.0});
+    EXPECT_NEAR(std::hypot(std::hypot(S.x(), S.y()) - 3.0, S.z()), 1.0, 1e-15 * 4.0);
+    EXPECT_NEAR(std::hypot(C.x() - 3.0, C.z()), 1.0, 1e-15 * 4.0);
+    const Span span = cylinder.span({x, 0.0}, {-1.0, 0.0});
+    EXPECT_TRUE(span.box.u.lo <= x && x <= span.box.u.hi);
+    EXPECT_LT(distance(cylinder.jet({x, 2.0}, span), cylinder.jet({x, 2.0})), 1e-12);
+  }
 }
 
 }  // namespace

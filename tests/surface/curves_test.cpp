@@ -103,7 +103,31 @@ TEST(BSplineCurve, PeriodicEqualsClampedAndRepeats) {
     }
   }
   EXPECT_EQ(closed.period(), 4.0);
-  EXPECT_FALSE(open.period().has_value());
+  EXPECT_FALSE(random_curve(3, false).period().has_value());
+}
+
+TEST(BSplineCurve, ClosedWithoutPeriodicKnotsRunsOnOverItsEnds) {
+  const BSplineCurve<2> clamped = spline_circle(false), periodic = spline_circle(true);
+  EXPECT_EQ(clamped.period(), 4.0);
+  for (double t = -9.03; t < 9.0; t += 0.1) {
+    EXPECT_LT((clamped.jet(t).C - periodic.jet(t).C).norm(), 1e-14) << t;
+    EXPECT_LT((clamped.jet(t).d2 - periodic.jet(t).d2).norm(), 1e-12) << t;
+  }
+  EXPECT_EQ(clamped.breaks({-1.5, 4.5}), periodic.breaks({-1.5, 4.5}));
+  EXPECT_EQ(clamped.breaks({0.0, 4.0}), (std::vector<double>{1.0, 2.0, 3.0}));
+}
+
+// A drop: degree 2, closed at a corner, then at a point of common tangents, then open by 1e-9.
+TEST(BSplineCurve, MeasuresHowItsEndsMeet) {
+  using P = BSplineCurve<2>::Point;
+  const KnotVector knots({0, 1, 2}, {3, 1, 3}, 2);
+  const BSplineCurve<2> corner(knots, {P(0, 0), P(1, 0), P(0, 1), P(0, 0)});
+  EXPECT_EQ(corner.period(), 2.0);
+  EXPECT_EQ(corner.continuity(), 0);
+  const BSplineCurve<2> smooth(knots, {P(0, 0), P(1, 0), P(-1, 0), P(0, 0)});
+  EXPECT_EQ(smooth.continuity(), 1);
+  EXPECT_FALSE(BSplineCurve<2>(knots, {P(0, 0), P(1, 0), P(0, 1), P(1e-9, 0)}).period());
+  EXPECT_FALSE(BSplineCurve<2>(knots, {P(1, 1), P(1, 1), P(1, 1), P(1, 1)}).period());
 }
 
 TEST(BSplineCurve, BreaksAreTheKnotsInsideTheRange) {
