@@ -49,7 +49,7 @@ Contender locked_jets(const Surface& surface, const std::vector<Uv>& points) {
 Row row_of(const Subject& subject) {
   const Spline spline = wavy_sheet(subject.p, subject.q, kSpans, subject.rational);
   const BSplineSurface surface = spline.surface();
-  constexpr double kMiddle = kSpans / 2;
+  constexpr int kMiddle = kSpans / 2;
   const auto near = random_points({{kMiddle, kMiddle + 1}, {kMiddle, kMiddle + 1}}, kPoints);
   const auto all = random_points(surface.domain(), kPoints);
   std::vector<Contender> contenders{locked_jets(surface, near), plain_jets(surface, near), plain_jets(surface, all),
