@@ -75,7 +75,7 @@ Xyz OffsetSurface::position(Uv p) const {
 }
 
 SurfaceJet OffsetSurface::jet(Uv p, const Span& span) const {
-  const SurfaceJet b = basis_->jet(p, span);
+  SurfaceJet b = basis_->jet(p, span);
   if (is_pole(b)) {
     const Uv q = off_the_pole(p);
     const SurfaceJet inside = basis_->jet(q, span);
