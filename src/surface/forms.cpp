@@ -92,9 +92,11 @@ double angle_of_direction(const FirstForm& I, UvVec d) {
   return std::atan2(std::sqrt(I.W2()) * d.v, I.E * d.u + I.F * d.v);
 }
 
+// w = a Su + b Sv + c n: by Cramer, a = [w, Sv, n] / W^2 and b = [Su, w, n] / W^2 with n = Su x Sv.
 UvVec tangent_components(const SurfaceJet& j, const Xyz& w) {
-  const Reciprocal r(j);
-  return {r.u.dot(w), r.v.dot(w)};
+  const Xyz n = j.Su.cross(j.Sv);
+  const double per_W2 = 1.0 / n.squaredNorm();
+  return {per_W2 * w.cross(j.Sv).dot(n), per_W2 * j.Su.cross(w).dot(n)};
 }
 
 }  // namespace geovor
