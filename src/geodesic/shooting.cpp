@@ -82,7 +82,7 @@ struct Demand {
   double least;   // no shot is asked to land nearer
   double place;   // residual from which the step, of second order, leaves a part of the tolerance
   double y;       // error allowed in y
-  double y_turn;  // how much y changes with the angle: by the third power of the length in curvature radii
+  double y_turn;  // how much y changes with the angle, as a rule: by the third power of the length in curvature radii
   double turn_per_miss;
   double finest;  // the integrator's tolerance of the last shot
 
@@ -99,36 +99,51 @@ struct Demand {
   // `slope_error`: of the slope by which y is corrected, see YSlope. A miss turns the path by so much more as y is less
   // than the length.
   double miss_allowed(double slope_error) const {
-    return std::max(least, std::min(place, y / (y_turn * slope_error * turn_per_miss)));
+    return std::max(least, std::min(place, y / (slope_error * turn_per_miss)));
   }
 };
 
-// dy/dt, from the two shots that tell it best; its error is in parts of what Demand takes for the slope itself.
+// dy/dt, from the two shots that tell it best, in parts of the length. Until then it is zero, to the size that Demand
+// takes it for; it may be larger, as where the curvature jumps.
 struct YSlope {
-  double value = 0.0, error = 1.0;
+  double value = 0.0, error = std::numeric_limits<double>::infinity();
+  bool learned = false;
 
-  static double error_between(double errors, double stretch, double turn) {
-    return (errors + stretch * stretch) / std::abs(turn) + std::abs(turn);
+  static double noise(double errors, double stretch, double turn) {
+    return (errors + stretch * stretch) / std::abs(turn);
   }
   void learn(const Shot& before, const Shot& shot) {
-    const Polar step{shot.aim.s - before.aim.s, shot.aim.t - before.aim.t};
-    const double error_here = error_between(before.error() + shot.error(), step.s / shot.aim.s, step.t);
-    if (!(error_here < error)) return;
+    const double s = shot.aim.s, ds = s - before.aim.s, turn = shot.aim.t - before.aim.t;
+    const double slope = (shot.state.y - before.state.y - 0.5 * (before.state.dy + shot.state.dy) * ds) / (turn * s);
+    const double noise_here = noise(before.error() + shot.error(), ds / s, turn);
+    const double error_here = noise_here + std::max(expected, std::abs(slope)) * std::abs(turn);
+    if (!(error_here < error || (!learned && error_here < std::abs(slope)))) return;
+    learned = true;
     error = error_here;
-    value = (shot.state.y - before.state.y - 0.5 * (before.state.dy + shot.state.dy) * step.s) / step.t;
     // On a sphere, say, there is none, and noise must not be taken for one.
-    if (std::abs(value) < kNoise * (error_here - std::abs(step.t)) * shot.aim.s) value = 0.0;
+    value = std::abs(slope) < kNoise * noise_here ? 0.0 : slope;
   }
+  void expect(double y_turn) {
+    expected = y_turn;
+    if (!learned) error = y_turn;
+  }
+  // After a step to a shot whose error is that of the last one.
+  double error_after(const Shot& shot, Polar step) const {
+    const double size = std::max(expected, std::abs(value));
+    return std::min(error, noise(shot.error(), step.s / shot.aim.s, step.t) + size * std::abs(step.t));
+  }
+
+ private:
+  double expected = 0.0;
 };
 
 // Of the next shot: the finest as soon as that will be the last one. Before, as loose as the miss of the next shot
 // allows, and such that the one after it can be the last.
-double next_tolerance(const Shot& shot, Polar step, const Demand& demand, double slope_error) {
+double next_tolerance(const Shot& shot, Polar step, const Demand& demand, const YSlope& y_slope) {
   const double loosest = std::max(kLoosest, demand.finest);
   if (shot.tolerance <= demand.finest) return shot.asked;  // which will meet the finest once more
   const double rest = kNewton * shot.missing() * shot.missing();
-  const double allowed =
-      demand.miss_allowed(std::min(slope_error, YSlope::error_between(shot.error(), step.s / shot.aim.s, step.t)));
+  const double allowed = demand.miss_allowed(y_slope.error_after(shot, step));
   if (rest + shot.error() <= allowed) return demand.finest;
   constexpr double kMargin = 0.5;
   const double wanted = rest > allowed ? kBelowResidual * rest : kMargin * allowed / kTrueError;
@@ -167,7 +182,7 @@ Connection corrected(const Surface& surface, const Ends& ends, const Shot& shot,
   c.angle = std::remainder(aim.t + step.t, 2.0 * M_PI);
   c.start_direction = direction_of(ends.at_from, ends.start.at_angle(c.angle));
   c.end_direction = direction_of(ends.at_to, shot.tangent + step.t * shot.state.dy * shot.across);
-  c.y = shot.state.y + shot.a * shot.state.dy + y_slope * step.t;
+  c.y = shot.state.y + shot.a * shot.state.dy + y_slope * aim.s * step.t;
   c.residual = shot.residual * shot.residual / c.length;
   c.leaves_domain = leaves(surface, shot.reach, ends, c.length);
   return c;
@@ -215,8 +230,9 @@ Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const Co
     last.residual = shot.residual;
     last.iterations = i;
     if (shot.status == TraceStatus::DegenerateMetric) last.status = ConnectStatus::DegenerateMetric;
-    if (before) y_slope.learn(*before, shot);
     const Demand demand(shot, ends, options.tolerance);
+    y_slope.expect(demand.y_turn);
+    if (before) y_slope.learn(*before, shot);
     if (shot.tolerance <= demand.finest && shot.missing() <= demand.miss_allowed(y_slope.error)) {
       last = corrected(surface, ends, shot, y_slope.value);
       last.iterations = i;
@@ -226,7 +242,7 @@ Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const Co
     if (shot.status == TraceStatus::Converged && shot.residual < best) {
       best = std::max(shot.residual, kNoise * shot.error() * aim.s);
       step = limited(newton_step(shot), aim.s);
-      tolerance = next_tolerance(shot, step, demand, y_slope.error);
+      tolerance = next_tolerance(shot, step, demand, y_slope);
       before = shot;
     } else {
       aim = {aim.s - step.s, aim.t - step.t};

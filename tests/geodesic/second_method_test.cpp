@@ -105,7 +105,7 @@ TEST_P(SecondMethod, AgreesWithConnections) {
   ConnectOptions options;
   options.tolerance = kAsked;
   double length = 0.0, angle = 0.0, y = 0.0, end_direction = 0.0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Uv p = random_point(random, box);
     const double far = size * std::exp(uniform(random, std::log(0.01), std::log(1.0))), t = uniform(random, -kPi, kPi);
     const Uv q = trace_geodesic(*surface, p, heading(*surface, p, t), far).end.p;
