@@ -38,6 +38,26 @@ constexpr double kFirstStep = 1.6;
 // A step shorter than this part of the length makes no way any more: the metric vanishes ahead (a pole).
 constexpr double kSmallestStep = 1e-13;
 
+// The metric fades if it changes by its size within the length, and this many times within a radius of curvature; or,
+// as at a tip, where curvature grows as fast, this many times within the length.
+constexpr double kSteep = 3.0;
+constexpr double kDeep = 30.0;
+
+// The metric's rate is at most the inverse of the distance from a pole that it comes from, but for curvature.
+constexpr double kPole = 4.0;
+
+// A path runs towards a line where the metric vanishes by this part of the way that the metric's fall predicts, which
+// is the way itself or, in the slowed time, more of it the higher the power with which the metric vanishes.
+constexpr double kPartOfWay = 0.7;
+
+// Where the metric falls so fast that it will be gone within this part of the length the path is at its end.
+constexpr double kBadLine = 1e-12;
+
+// So it is within the first of these where only steps of the second part of the way meet the tolerance: what is left of
+// the metric is the rounding of the jets. (The normal at d from a tip, of jets exact to eps, is exact to eps / d.)
+constexpr double kBlurred = 1e-6;
+constexpr double kPartOfBlurredWay = 0.05;
+
 // A path within this part of its length from a border is on it: integrating on the wrong side of the border as deep as
 // that changes nothing that double precision shows.
 constexpr double kBorderSlack = 1e-14;
@@ -144,8 +164,18 @@ SurfaceJet GeodesicIntegrator::refresh() {
   Su_ = j.Su;
   Sv_ = j.Sv;
   slope_ = geodesic_slope(j, x_, normal_);
+  rate_ = chart_ == nullptr ? metric_rate(j, x_[2], x_[3]) : 0.0;
+  fading_ = metric_fades(j);
   fresh_ = true;
   return j;
+}
+
+// A pole explains what of the metric vanishes with the distance to it; that is passed in its chart.
+bool GeodesicIntegrator::metric_fades(const SurfaceJet& j) const {
+  const double rate = std::abs(rate_), fall = rate * length_;
+  if (!(fall > kDeep || (fall > 1.0 && rate > kSteep * curvatures(j).largest()))) return false;
+  const auto explains = [&](const auto& chart) { return (S_ - chart->pole()).norm() * rate < kPole; };
+  return std::none_of(charts_.begin(), charts_.end(), explains);
 }
 
 GeodesicVector GeodesicIntegrator::slope_at(const GeodesicVector& x) {
@@ -202,9 +232,8 @@ TraceStatus GeodesicIntegrator::advance(double s) {
 
 // Errors in position and y count relative to the length, those in the derivatives as the turn that carries over the
 // whole length.
-double GeodesicIntegrator::error_of(const GeodesicVector& e, double h) const {
-  const double place = length_of({e[0], e[1]}), turn = length_of({e[2], e[3]});
-  const double difference = std::max((place + std::abs(e[4])) / length_, turn + std::abs(e[5]));
+double GeodesicIntegrator::error_of(double place, double turn, double h) const {
+  const double difference = std::max(place / length_, turn);
   const double allowed = kAllowed * options_.tolerance * std::pow(h / length_, kShare);
   return dop853::error_estimate(difference) / allowed;
 }
@@ -257,12 +286,15 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
     x_[ahead.border.axis] = ahead.border.at;
     return cross(ahead.border);
   }
+  if (fading_)
+    if (const auto done = slowed_step(remaining, beyond)) return *done;
   // Equal steps to the end rather than full ones and a short last one.
   const double even = remaining / std::ceil(remaining / (kStretch * next_h_));
   const double h = std::min({even, ahead.s, cap_, room()});
   cap_ = kInf;
   const auto trial = dop853::step(x_, slope_, h, [this](const GeodesicVector& x) { return slope_at(x); });
-  const double error = error_of(trial.error5, h);
+  const GeodesicVector& e = trial.error5;
+  const double error = error_of(length_of({e[0], e[1]}) + std::abs(e[4]), length_of({e[2], e[3]}) + std::abs(e[5]), h);
   // The last stage stands at the step's end. A normal that has turned about there means a singular line run over
   // unseen.
   const bool regular = last_normal_.dot(normal_) > 0.0;
@@ -273,8 +305,10 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
   // A step cut short by a border or the end says little about how long one may be.
   next_h_ = std::max(h * std::min(factor, kGrow), h < next_h_ ? next_h_ : 0.0);
 
+  next_t_ = 0.0;
+
   if (leaves_wedge(trial.state)) return stop_at_wedge(h);
-  const Exit passed = bordered ? find_exit(piece_, x_, trial.state, h, beyond) : Exit{};
+  const Exit passed = bordered ? exit_of(trial.state, h, beyond) : Exit{};
   if (!(passed.s < h) && h < ahead.s) {
     accept(trial.state, h);
     return TraceStatus::Converged;
@@ -288,6 +322,64 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
     accept(trial.state, h);
   }
   return TraceStatus::Converged;
+}
+
+// None where a border is near: those are met by steps in the arc length.
+std::optional<TraceStatus> GeodesicIntegrator::slowed_step(double remaining, const BorderSlack& beyond) {
+  const double W = normal_.norm(), fall = std::max(-rate_, 0.0);
+  if (fall * kBadLine * length_ >= 1.0) return TraceStatus::DegenerateMetric;
+  SlowedStep step(surface_, piece_, x_, slope_, normal_, rate_);
+  double t = next_t_ > 0.0 ? next_t_ : next_h_ / W;
+  if (fall > 0.0) t = std::min(t, kPartOfWay / (fall * W));
+  bool good = step.run(t);
+  if (good && step.arc_length() > remaining) good = step.run_to(remaining, t * remaining / step.arc_length());
+  evaluations_ += step.evaluations();
+  if (good && piece_.has_borders() && step.meets_border(beyond)) return std::nullopt;
+  const double h = good ? step.arc_length() : W * t;
+  const SlowedVector& e = step.error5();
+  const double place = length_of({e[0], e[1]}) + std::abs(e[7]) + std::abs(e[5]);
+  const double error = error_of(place, e.segment<3>(2).norm() + std::abs(e[6]), h);
+  const double factor = kSafety * std::pow(error, -1.0 / dop853::kErrorOrder);
+  if (!(good && error <= 1.0)) {
+    next_t_ = t * (good && factor > kShrink ? factor : kShrink);
+    const bool blurred = fall * kBlurred * length_ > 1.0 && fall * W * next_t_ < kPartOfBlurredWay;
+    const bool makes_way = W * next_t_ > kSmallestStep * length_ && !blurred;
+    return makes_way ? TraceStatus::Converged : TraceStatus::DegenerateMetric;
+  }
+  worst_error_ = std::max(worst_error_, error);
+  next_t_ = step.time() * std::min(factor, kGrow);
+  accept(step.end(), std::min(h, remaining), &step);
+  return TraceStatus::Converged;
+}
+
+Exit GeodesicIntegrator::exit_of(const GeodesicVector& end, double h, const BorderSlack& beyond) {
+  Exit first = find_exit(piece_, x_, end, h, beyond);
+  for (const Exit& turn : doubtful_turns(piece_, x_, slope_, end, h, beyond)) {
+    const Exit dip = dip_at(turn, beyond);
+    if (dip.s < first.s) first = dip;
+  }
+  return first;
+}
+
+// The turn itself, by Newton's method on the step run again as far as there: its depth is then as exact as the step.
+// The line is crossed where the parabola about the turn meets it.
+Exit GeodesicIntegrator::dip_at(Exit turn, const BorderSlack& beyond) {
+  constexpr int kCorrections = 3;  // from a cubic's extremum, a few digits, to all
+  const auto [axis, side, at] = turn.border;
+  double s = turn.s, depth = 0.0, bend = 0.0;
+  for (int i = 0; i < kCorrections; ++i) {
+    const GeodesicVector x = dop853::step(x_, slope_, s, [this](const GeodesicVector& z) { return slope_at(z); }).state;
+    const double w = x[axis + 2];
+    bend = slope_at(x)[axis + 2];
+    depth = side * (x[axis] - at) - side * 0.5 * w * w / bend;
+    s -= w / bend;
+    if (!(side * bend < 0.0 && s > 0.0)) return {};
+    // A turn that stays clear of the line needs no more digits.
+    if (depth < 0.0 && std::abs(w * w / bend) < -depth) return {};
+  }
+  if (!(depth > beyond.along[axis])) return {};
+  const double back = std::sqrt(2.0 * depth / std::abs(bend));
+  return back < s ? Exit{s - back, turn.border} : Exit{};
 }
 
 bool GeodesicIntegrator::leaves_wedge(const GeodesicVector& x) const {
@@ -326,6 +418,8 @@ bool GeodesicIntegrator::land(const Border& border, GeodesicVector x, const Geod
   constexpr double kLinear = 1e-3;
   const double landed = s + delta + rest;
   if (!(std::abs(rest) <= kLinear * limit && landed > 0.0 && landed <= remaining)) return false;
+  // Where it runs inwards it comes back from a dip that has been stepped over.
+  if (!(border.side * x[border.axis + 2] > 0.0)) return false;
   x += rest * slope;
   x[border.axis] = border.at;
   accept(x, landed);
@@ -336,7 +430,8 @@ TraceStatus GeodesicIntegrator::cross(const Border& border) {
   if (options_.stop_at_domain && piece_.ends_domain(border)) return TraceStatus::LeftDomain;
   const SurfaceJet before = surface_.continuity() == 0 ? piece_.jet(surface_, {x_[0], x_[1]}) : SurfaceJet{};
   piece_ = Piece(surface_, {x_[0], x_[1]}, {x_[2], x_[3]}, options_.stop_at_domain);
-  const double bend = surface_.continuity() == 0 ? refract(border, before) : 0.0;
+  double bend = 0.0;
+  if (surface_.continuity() == 0 && !refract(border, before, bend)) return TraceStatus::DegenerateMetric;
   if (record_ != nullptr) record_->crossings.push_back({covered_, {x_[0], x_[1]}, border, bend});
   refresh();
   return slope_.allFinite() ? enter_piece() : TraceStatus::DegenerateMetric;
@@ -344,8 +439,9 @@ TraceStatus GeodesicIntegrator::cross(const Border& border) {
 
 // Across a crease the path goes on straight in the unfolding of the two tangent planes: its angle to the crease is
 // kept. The crease carries the curvature kg_before + kg_after a unit of its length (Gauss-Bonnet on a strip about it,
-// kg its geodesic curvature seen from either side), and a beam of width y covers y / sin(angle) of it.
-double GeodesicIntegrator::refract(const Border& border, const SurfaceJet& before) {
+// kg its geodesic curvature seen from either side), and a beam of width y covers y / sin(angle) of it. False where the
+// angle is too small for that to be known.
+bool GeodesicIntegrator::refract(const Border& border, const SurfaceJet& before, double& bend_angle) {
   const SurfaceJet after = piece_.jet(surface_, {x_[0], x_[1]});
   ++evaluations_;
   const bool along_v = border.axis == 0;
@@ -366,8 +462,16 @@ double GeodesicIntegrator::refract(const Border& border, const SurfaceJet& befor
   x_[3] = d.v;
   const double bend_scale = along(before).squaredNorm();
   const double curvature = (bend(before).dot(m_before) + bend(after).dot(m_after)) / bend_scale;
-  x_[5] -= x_[4] * curvature / sine;
-  return std::atan2(unit_normal(before).cross(unit_normal(after)).norm(), unit_normal(before).dot(unit_normal(after)));
+  // Such a path stays on the crease, to rounding, for as long as its direction there is looked ahead (kLook).
+  constexpr double kParallel = kLook;
+  if (sine > kParallel) {
+    x_[5] -= x_[4] * curvature / sine;
+  } else if (!(std::abs(curvature) * length_ <= kParallel)) {
+    return false;
+  }
+  bend_angle =
+      std::atan2(unit_normal(before).cross(unit_normal(after)).norm(), unit_normal(before).dot(unit_normal(after)));
+  return true;
 }
 
 void GeodesicIntegrator::widen(Interval u, Interval v) {
@@ -375,12 +479,16 @@ void GeodesicIntegrator::widen(Interval u, Interval v) {
             {std::min(reach_.v.lo, v.lo), std::max(reach_.v.hi, v.hi)}};
 }
 
-void GeodesicIntegrator::accept(const GeodesicVector& x, double h) {
+void GeodesicIntegrator::accept(const GeodesicVector& x, double h, const SlowedStep* slowed) {
   fresh_ = false;
-  if (record_ != nullptr) record_->legs.push_back({covered_, h, x_, slope_, x, piece_, chart_, base_point()});
+  if (record_ != nullptr)
+    record_->legs.push_back(
+        {covered_, h, x_, slope_, x, piece_, chart_, base_point(), slowed != nullptr ? slowed->time() : 0.0});
   if (chart_ != nullptr) {
     base_ = unwound(surface_, *chart_, x_, base_, x);
     widen({base_.u, base_.u}, {base_.v, base_.v});
+  } else if (slowed != nullptr) {
+    widen(slowed->swept_by(0), slowed->swept_by(1));
   } else {
     widen(swept(x_[0], x[0], x_[2], x[2], h), swept(x_[1], x[1], x_[3], x[3], h));
   }

@@ -2,9 +2,12 @@
 // next.
 #pragma once
 
+#include <optional>
+
 #include "geodesic/geodesic_equation.h"
 #include "geodesic/path_leg.h"
 #include "geodesic/piece.h"
+#include "geodesic/slowed_time.h"
 #include "surface/forms.h"
 
 namespace geovor {
@@ -55,21 +58,25 @@ class GeodesicIntegrator {
   Uv base_point() const { return chart_ == nullptr ? Uv{x_[0], x_[1]} : base_; }
   GeodesicVector slope_at(const GeodesicVector& x);
   SurfaceJet refresh();
+  bool metric_fades(const SurfaceJet& j) const;
   double length_of(UvVec d) const { return (d.u * Su_ + d.v * Sv_).norm(); }
   double first_step(const SurfaceJet& j) const;
   void change_map();
   double room() const;
   TraceStatus enter_piece();
   TraceStatus step(double remaining);
+  std::optional<TraceStatus> slowed_step(double remaining, const BorderSlack& beyond);
   bool reject(double h, double factor, bool regular);
-  double error_of(const GeodesicVector& difference, double h) const;
+  double error_of(double place, double turn, double h) const;
   BorderSlack slack() const;
+  Exit exit_of(const GeodesicVector& end, double h, const BorderSlack& beyond);
+  Exit dip_at(Exit turn, const BorderSlack& beyond);
   bool leaves_wedge(const GeodesicVector& x) const;
   TraceStatus stop_at_wedge(double h);
   bool land(const Border& border, GeodesicVector x, const GeodesicVector& slope, double s, double remaining);
   TraceStatus cross(const Border& border);
-  double refract(const Border& border, const SurfaceJet& before);
-  void accept(const GeodesicVector& x, double h);
+  bool refract(const Border& border, const SurfaceJet& before, double& bend);
+  void accept(const GeodesicVector& x, double h, const SlowedStep* slowed = nullptr);
   void widen(Interval u, Interval v);
 
   const Surface& surface_;
@@ -86,6 +93,9 @@ class GeodesicIntegrator {
   Xyz last_normal_ = Xyz::Zero();  ///< at the last place where the slope was evaluated
   bool fresh_ = false;             ///< slope_ and the jet's parts belong to x_
   double next_h_ = 0.0;            ///< that the error control proposes
+  double next_t_ = 0.0;            ///< the same in the slowed time; zero: the last step was one by arc length
+  double rate_ = 0.0;              ///< the metric's, at x_
+  bool fading_ = false;            ///< it is the metric that makes steps short
   double cap_;                     ///< the next step alone may not be longer: a border is known to lie there
   double covered_ = 0.0;
   double worst_error_ = 0.0;  ///< of an accepted step, in parts of what it was allowed

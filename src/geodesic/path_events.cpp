@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geodesic/pole_passage.h"
+#include "geodesic/slowed_time.h"
 #include "numeric/dop853.h"
 #include "numeric/root.h"
 #include "surface/forms.h"
@@ -170,6 +171,12 @@ GeodesicVector state_on(const Surface& surface, const PathLeg& leg, double s) {
   if (h == leg.h) return leg.end;
   const Surface& map = map_of(surface, leg);
   Xyz normal;
+  if (leg.slowed_time > 0.0) {
+    const SurfaceJet j = leg.piece.jet(map, {leg.x[0], leg.x[1]});
+    SlowedStep step(map, leg.piece, leg.x, leg.slope, j.Su.cross(j.Sv), metric_rate(j, leg.x[2], leg.x[3]));
+    step.run_to(h, leg.slowed_time * h / leg.h);
+    return step.end();
+  }
   return dop853::step(leg.x, leg.slope, h,
                       [&](const GeodesicVector& x) {
                         return geodesic_slope(leg.piece.jet(map, {x[0], x[1]}), x, normal);

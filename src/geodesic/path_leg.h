@@ -17,6 +17,7 @@ struct PathLeg {
   Piece piece;                       ///< of the surface, or of the chart
   const PoleChart* chart = nullptr;  ///< of which x are coordinates; none: they are parameters of the surface
   Uv start;                          ///< the surface's parameters at its start
+  double slowed_time = 0.0;          ///< of a step in the slowed time; zero: a step by arc length
 };
 
 /// A path went over a line between two pieces.

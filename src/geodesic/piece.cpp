@@ -163,6 +163,28 @@ Exit find_exit(const Piece& piece, const GeodesicVector& x0, const GeodesicVecto
   return first;
 }
 
+// The cubic's error is x'''' s^2 (h - s)^2 / 24, at most x'''' h^4 / 384, and x'' at the start lacks x'''' h^2 / 12.
+std::vector<Exit> doubtful_turns(const Piece& piece, const GeodesicVector& x0, const GeodesicVector& slope,
+                                 const GeodesicVector& x1, double h, const BorderSlack& slack) {
+  constexpr double kCubicError = 1.0 / 32.0;
+  // The fourth derivative changes over a step, by less than this factor; and where it vanishes at the start the error
+  // is still a small part of the cubic's own bend.
+  constexpr double kChange = 8.0, kPartOfBend = 1e-3;
+  std::vector<Exit> turns;
+  for_each_border(piece, [&](const Border& b) {
+    const double w0 = b.side * x0[b.axis + 2], w1 = b.side * x1[b.axis + 2];
+    if (!(w0 > 0.0 && w1 < 0.0)) return;
+    const double gap = b.side * (b.at - x0[b.axis]);
+    const Cubic f(b.side * (x1[b.axis] - x0[b.axis]), w0, w1, h);
+    const double k = extremum(f, 1.0, 1.0);
+    const double lacking = std::abs(h * h * b.side * slope[b.axis + 2] - 2.0 * f.b);
+    const double margin =
+        kChange * kCubicError * lacking + kPartOfBend * (std::abs(f.b) + std::abs(f.c)) + slack.along[b.axis];
+    if (k < 1.0 && f(k) <= gap + slack.along[b.axis] && f(k) > gap - margin) turns.push_back({h * k, b});
+  });
+  return turns;
+}
+
 double length_to_border(const Border& b, const GeodesicVector& x, const GeodesicVector& slope) {
   const double gap = b.at - x[b.axis], w = slope[b.axis], c = slope[b.axis + 2];
   const double discriminant = w * w + 2.0 * c * gap;

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "geodesic/geodesic_equation.h"
 
@@ -61,6 +62,12 @@ Exit predict_exit(const Piece& piece, const GeodesicVector& x, const GeodesicVec
 /// infinite if it meets none. Finds paths that leave and come back within the step.
 Exit find_exit(const Piece& piece, const GeodesicVector& x0, const GeodesicVector& x1, double h,
                const BorderSlack& slack);
+
+/// Where inside a step a path turns so near to a border that the cubic of find_exit cannot tell whether it dips beyond:
+/// the arc length of the cubic's extremum, 0 < s < h. `slope` is the state's derivative at the start: what the cubic
+/// lacks of x'' there measures its error.
+std::vector<Exit> doubtful_turns(const Piece& piece, const GeodesicVector& x0, const GeodesicVector& slope,
+                                 const GeodesicVector& x1, double h, const BorderSlack& slack);
 
 /// The range that the cubic with these ends and slopes sweeps over a step of size h.
 Interval swept(double x0, double x1, double slope0, double slope1, double h);

@@ -167,7 +167,8 @@ TEST(Connect, WorksWhereParameterLinesAreSheared) {
     const double x = uniform(random, -2.0, 2.0), z = uniform(random, -1.0, 1.0);
     const Connection c = connect(cylinder, {0.0, 0.0}, {x - 1e3 * z, 1e3 * z});
     ASSERT_EQ(c.status, ConnectStatus::Converged);
-    EXPECT_NEAR(c.length, std::hypot(x, z), 4e-10);  // jets of this shape know 1e-10: their terms cancel 1e6 : 1
+    // u'^2 Suu + ... is a unit left of terms of |(u',v')|^2 = 1e6 units: their rounding, 1e-10, over s^2 / 2 < 2.5.
+    EXPECT_NEAR(c.length, std::hypot(x, z), 4e-10);
   }
 }
 

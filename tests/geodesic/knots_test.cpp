@@ -16,6 +16,35 @@ namespace {
 using namespace testing;
 constexpr double kPi = std::numbers::pi;
 
+// The unit sphere up to the latitude `border`, and beyond it the cone that touches it there: C1, and K jumps. v is the
+// arc length from the border along the meridian.
+class ConedSphere final : public Surface {
+ public:
+  explicit ConedSphere(double border) : border_(border) {}
+  SurfaceKind kind() const override { return SurfaceKind::Function; }
+  UvBox domain() const override { return {{0.0, 2.0 * kPi}, {-border_ - 1.0, 0.5 / std::tan(border_)}}; }
+  std::optional<double> u_period() const override { return 2.0 * kPi; }
+  int continuity() const override { return 1; }
+  Span span(Uv p, UvVec towards) const override {
+    const bool up = p.v > 0.0 || (p.v == 0.0 && towards.v > 0.0);
+    const UvBox all = domain();
+    return {0, up ? 1 : 0, {all.u, up ? Interval{0.0, all.v.hi} : Interval{all.v.lo, 0.0}}};
+  }
+  SurfaceJet jet(Uv p) const override { return jet(p, span(p, {0.0, 0.0})); }
+  SurfaceJet jet(Uv p, const Span& span) const override {
+    const double cu = std::cos(p.u), su = std::sin(p.u), cb = std::cos(border_), sb = std::sin(border_);
+    const double c = std::cos(border_ + p.v), s = std::sin(border_ + p.v);
+    const bool cone = span.box.v.lo == 0.0;
+    const double r = cone ? cb - p.v * sb : c, z = cone ? sb + p.v * cb : s;
+    const double r1 = cone ? -sb : -s, z1 = cone ? cb : c, r2 = cone ? 0.0 : -c, z2 = cone ? 0.0 : -s;
+    const Xyz out{cu, su, 0.0}, along{-su, cu, 0.0}, up = Xyz::UnitZ();
+    return {r * out + z * up, r * along, r1 * out + z1 * up, -r * out, r1 * along, r2 * out + z2 * up};
+  }
+
+ private:
+  double border_;
+};
+
 BSplineSurface bicubic(int spans, unsigned seed) { return random_spline(3, 3, spans, false, seed).surface(); }
 
 // The second method steps over the knots blindly, with steps so short that their error, second order at a C2 knot and
@@ -131,6 +160,67 @@ TEST(TraceAcrossKnots, SplineTorusIsATorus) {
       EXPECT_NEAR(a.end.y, b.end.y, 1e-9);
     }
   }
+}
+
+// A great circle that rises to `depth` above the line, 0.8 before its highest point, and what the Jacobi field is 1.6
+// later: sine and cosine before the line, linear over the chord of the cone, turned on behind it (by symmetry the cone
+// gives the path back at the same angle).
+struct Dip {
+  double line, depth;
+  Uv start;
+  UvVec direction;
+
+  Dip(double line_, double depth_) : line(line_), depth(depth_) {
+    const double top = line + depth, latitude = std::asin(std::sin(top) * std::cos(0.8));
+    start = {0.0, latitude - line};
+    const double east = std::cos(top) / std::cos(latitude);  // Clairaut
+    direction = {east / std::cos(latitude), std::sqrt(1.0 - east * east)};
+  }
+  double y(double d) const {
+    const double k = d > 0.0 ? std::sqrt(std::sin(d) * std::sin(2.0 * line + d)) : 0.0;
+    const double a = 0.8 - std::atan2(k, std::sin(line)), chord = 2.0 * k / std::sin(line);
+    const double behind = 1.6 - a - chord;
+    return (std::sin(a) + chord * std::cos(a)) * std::cos(behind) + std::cos(a) * std::sin(behind);
+  }
+};
+
+// The dip is as long as the root of its depth, so that an error of the place is felt in y by as much more: that much,
+// and no more, is allowed; a dip within the tolerance may go unseen.
+TEST(TraceAcrossKnots, DipsBeyondALineWhereTheCurvatureJumpsAreSeen) {
+  for (const double line : {0.3, 0.8, 1.1}) {
+    const ConedSphere surface(line);
+    for (const double tolerance : {1e-14, 1e-12, 1e-9, 1e-6})
+      for (double depth = 1e-2; depth > 1e-16; depth *= 0.2) {
+        const Dip dip(line, depth);
+        TraceOptions options;
+        options.tolerance = tolerance;
+        const TraceResult r = trace_geodesic(surface, dip.start, dip.direction, 1.6, options);
+        ASSERT_EQ(r.status, TraceStatus::Converged);
+        const double place = 5.0 * tolerance * 1.6 + 2e-15, y = dip.y(depth);
+        const double conditioning = std::max(std::abs(dip.y(depth + place) - y), std::abs(dip.y(depth - place) - y));
+        EXPECT_LT(std::abs(r.end.y - y), place + conditioning) << line << ' ' << tolerance << ' ' << depth;
+        EXPECT_LT(r.evaluations, 2000) << line << ' ' << tolerance << ' ' << depth;
+      }
+  }
+}
+
+// Along the rim of the can, on its side and with the shortest of chords over the lid: geodesic curvature 1 of the rim
+// is felt at both ends of the chord, twice y over the angle in all.
+TEST(TraceAcrossKnots, CreaseMetNearlyParallelGivesNumbersOrAStatus) {
+  const Can can(1.0);
+  for (double angle = 1e-1; angle > 1e-20; angle *= 0.1)
+    for (const double before : {0.0, 0.5}) {
+      const double sine = std::sin(angle), chord = 2.0 * sine;
+      const TraceResult r = trace_geodesic(can, {0.0, 1.0 + before * sine}, {std::cos(angle), -sine}, 1.2);
+      SCOPED_TRACE(::testing::Message() << angle << ' ' << before << ' ' << int(r.status) << ' ' << r.length);
+      EXPECT_TRUE(std::isfinite(r.end.y) && std::isfinite(r.end.dy) && std::isfinite(r.end.p.u + r.end.p.v));
+      if (!(angle > 5e-7)) continue;
+      ASSERT_EQ(r.status, TraceStatus::Converged);
+      // What the path may be off in its angle, felt by 1 / sin(angle) as much.
+      const double allowed = 4.0 * 5.0 * TraceOptions{}.tolerance / angle;
+      const double y = before > 0.0 ? chord - before : chord;
+      EXPECT_NEAR(r.end.y, y - (1.2 - before - chord), allowed);
+    }
 }
 
 // From the disk over the rim onto the side: the angle to the rim is kept, and the Jacobi field is the spread of

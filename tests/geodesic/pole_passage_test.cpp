@@ -61,6 +61,7 @@ const std::vector<Ball>& balls() {
       {"function", std::make_shared<Ellipsoid>(1.0, 1.0, 1.0), {0.0, 0.4}, {6.2, 1.2}},
       {"revolution", revolved_sphere(), {0.0, 0.4}, {6.2, 1.2}},
       {"spline", spline_sphere(4, true), {0.0, 1.3}, {4.0, 1.8}},
+      {"spline closed by its end rows", spline_sphere(4, false), {0.0, 1.3}, {4.0, 1.8}},
   };
   return all;
 }
