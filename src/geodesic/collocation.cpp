@@ -30,9 +30,21 @@ constexpr double kLargestCurvature = 2.5;
 constexpr double kFinest = 1e-14;
 constexpr double kRoughlySettled = 1e-3;
 
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNodes, 1>;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNodes, kMostNodes>;
+// Matrices hold whole blocks of rows, the last filled up with zeros.
+constexpr int kBlock = 4;
+constexpr int whole_blocks(int rows) { return (rows + kBlock - 1) / kBlock * kBlock; }
+constexpr int kMostRows = whole_blocks(kMostNodes);
+
+using Block = Eigen::Array<double, kBlock, 1>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostNodes>;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMostNodes, 2>;
+
+Matrix filled_up(const Eigen::MatrixXd& rows) {
+  Matrix all = Matrix::Zero(whole_blocks(static_cast<int>(rows.rows())), rows.cols());
+  all.topRows(rows.rows()) = rows;
+  return all;
+}
 
 struct Rule {
   LobattoRule lobatto;
@@ -44,16 +56,16 @@ struct Rule {
     const int inner = degree - 1;
     const Eigen::MatrixXd& D = lobatto.derivative;
     const Eigen::MatrixXd D2 = D * D;
-    first = D.middleRows(1, inner);
-    second = D2.middleRows(1, inner);
-    inverse = D2.block(1, 1, inner, inner).inverse();
+    first = filled_up(D.middleRows(1, inner));
+    second = filled_up(D2.middleRows(1, inner));
+    inverse = filled_up(D2.block(1, 1, inner, inner).inverse());
     tail.resize(2, degree + 1);
     for (int i = 0; i <= degree; ++i)
       for (int last = 0; last < 2; ++last)
         tail(last, i) =
             (2 * (degree - last) + 1) * lobatto.weights[i] * std::legendre(degree - last, 2.0 * lobatto.nodes[i] - 1.0);
   }
-  int inner() const { return static_cast<int>(first.rows()); }
+  int inner() const { return static_cast<int>(inverse.cols()); }
 };
 
 const Rule& rule(std::size_t level) {
@@ -62,12 +74,19 @@ const Rule& rule(std::size_t level) {
   return rules[level];
 }
 
-// The product, column by column: the matrices are too small for a library's kernels.
-template <class M, class V>
-Vector product(const M& matrix, const V& vector) {
-  Vector sum = vector[0] * matrix.col(0);
-  for (int i = 1; i < matrix.cols(); ++i) sum += vector[i] * matrix.col(i);
-  return sum;
+// The product's first rows. The matrices are too small for a library's kernels: a block of rows at a time, its sums in
+// registers.
+template <class V>
+Vector product(const Matrix& matrix, const V& vector, int rows) {
+  Vector result(matrix.rows());
+  for (int row = 0; row < matrix.rows(); row += kBlock) {
+    Block sum = Block::Zero();
+    for (int i = 0; i < matrix.cols(); ++i) sum += vector[i] * Eigen::Map<const Block>(&matrix(row, i));
+    Eigen::Map<Block> at(&result[row]);
+    at = sum;
+  }
+  result.conservativeResize(rows);
+  return result;
 }
 
 // Values at the nodes of one degree -> values at those of a higher one.
@@ -77,9 +96,10 @@ const Matrix& transfer(std::size_t from, std::size_t to) {
     std::array<Row, kDegrees.size()> made;
     for (std::size_t i = 0; i < kDegrees.size(); ++i)
       for (std::size_t j = i + 1; j < kDegrees.size(); ++j) {
-        made[i][j].resize(kDegrees[j] + 1, kDegrees[i] + 1);
+        Eigen::MatrixXd rows(kDegrees[j] + 1, kDegrees[i] + 1);
         for (int row = 0; row <= kDegrees[j]; ++row)
-          made[i][j].row(row) = rule(i).lobatto.interpolation(rule(j).lobatto.nodes[row]);
+          rows.row(row) = rule(i).lobatto.interpolation(rule(j).lobatto.nodes[row]);
+        made[i][j] = filled_up(rows);
       }
     return made;
   }();
@@ -149,7 +169,7 @@ void Collocation::refine(std::size_t level) {
   const Columns coarse = x_;
   const Matrix& rows = transfer(level_, level);
   start_on(level);
-  for (int axis = 0; axis < 2; ++axis) x_.col(axis) = product(rows, coarse.col(axis));
+  for (int axis = 0; axis < 2; ++axis) x_.col(axis) = product(rows, coarse.col(axis), kDegrees[level] + 1);
   x_.row(0) = coarse.row(0);
   x_.row(x_.rows() - 1) = coarse.row(coarse.rows() - 1);
 }
@@ -178,7 +198,7 @@ Vector Collocation::with_curvature(const Vector& start, double accuracy) const {
   Vector b = start, term = start;
   const double scale = start.cwiseAbs().maxCoeff();
   for (int i = 0; i < kMost && term.cwiseAbs().maxCoeff() > accuracy * scale; ++i) {
-    term = -product(rule_->inverse, Vector(curvature_.cwiseProduct(term)));
+    term = -product(rule_->inverse, Vector(curvature_.cwiseProduct(term)), rule_->inner());
     b += term;
   }
   return b;
@@ -188,8 +208,8 @@ Vector Collocation::with_curvature(const Vector& start, double accuracy) const {
 bool Collocation::newton_step() {
   constexpr double kOfStep = 1e-6;  // the next step mends the rest
   const int inner = rule_->inner();
-  const Vector du = product(rule_->first, x_.col(0)), dv = product(rule_->first, x_.col(1));
-  const Vector ddu = product(rule_->second, x_.col(0)), ddv = product(rule_->second, x_.col(1));
+  const Vector du = product(rule_->first, x_.col(0), inner), dv = product(rule_->first, x_.col(1), inner);
+  const Vector ddu = product(rule_->second, x_.col(0), inner), ddv = product(rule_->second, x_.col(1), inner);
   Vector along(inner), across(inner), speed(inner), per_across(inner);
   Columns b(inner, 2);
   for (int i = 0; i < inner; ++i) {
@@ -209,7 +229,8 @@ bool Collocation::newton_step() {
   evaluations_ += inner;
   length_ = rule_->lobatto.weights.segment(1, inner).dot(speed);  // but for the ends' small weights
   if (!(curvature_.cwiseAbs().maxCoeff() < kLargestCurvature)) return false;
-  const Vector s = product(rule_->inverse, along), c = with_curvature(product(rule_->inverse, across), kOfStep);
+  const Vector s = product(rule_->inverse, along, inner),
+               c = with_curvature(product(rule_->inverse, across, inner), kOfStep);
   for (int i = 0; i < inner; ++i) {
     const double k = s[i] / speed[i], l = c[i] * per_across[i];
     x_(i + 1, 0) += k * du[i] + l * b(i, 0);
@@ -263,7 +284,7 @@ std::optional<Connection> Collocation::result() const {
   constexpr double kRounding = 1e-16;
   const Vector line = rule_->lobatto.nodes.segment(1, rule_->inner());
   const Vector shape =
-      line + with_curvature(-product(rule_->inverse, Vector(curvature_.cwiseProduct(line))), kRounding);
+      line + with_curvature(-product(rule_->inverse, Vector(curvature_.cwiseProduct(line)), rule_->inner()), kRounding);
   Xyz first = chord, last = chord;
   double slope = 1.0;  // of the Jacobi field that is 0 and 1 at the ends, at the start
   for (int i = 0; i < rule_->inner(); ++i) {
