@@ -466,7 +466,7 @@ bool GeodesicIntegrator::refract(const Border& border, const SurfaceJet& before,
   constexpr double kParallel = kLook;
   if (sine > kParallel) {
     x_[5] -= x_[4] * curvature / sine;
-  } else if (!(std::abs(curvature) * length_ <= kParallel)) {
+  } else if (x_[4] != 0.0 && !(std::abs(curvature) * length_ <= kParallel)) {
     return false;
   }
   bend_angle =

@@ -45,6 +45,18 @@ class FoldedWave final : public Surface {
   using Surface::jet;
 };
 
+// A cone that does not know that it is one: its tip is the side v = 0.
+class UnknownCone final : public Surface {
+ public:
+  SurfaceKind kind() const override { return SurfaceKind::Function; }
+  UvBox domain() const override { return {{-8.0, 8.0}, {0.0, 4.0}}; }
+  SurfaceJet jet(Uv p) const override {
+    const Xyz out{std::cos(p.u), std::sin(p.u), 1.0}, along{-std::sin(p.u), std::cos(p.u), 0.0};
+    return {p.v * out, p.v * along, out, p.v * (Xyz::UnitZ() - out), along, Xyz::Zero()};
+  }
+  using Surface::jet;
+};
+
 // A polynomial cone over a parabola; its tip is the side v = 0.
 BSplineSurface spike() {
   std::vector<Xyz> poles;
@@ -141,6 +153,24 @@ TEST(DegenerateMetric, PathsBesideAFoldAreRightAtEveryPoint) {
         EXPECT_NEAR(path.state(s).y, plain.state(s).y, 1e-11) << s;
       }
     }
+}
+
+// Unrolled the path is a straight line that passes the tip at the distance `miss`, turning about it by half a turn.
+TEST(DegenerateMetric, PathsThatPassATipAreFollowed) {
+  const UnknownCone cone;
+  const double start = std::numbers::sqrt2, length = 2.0;
+  for (const double miss : {0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const double sine = miss / start, cosine = std::sqrt(1.0 - sine * sine);
+    const TraceResult r = trace_geodesic(cone, {0.0, 1.0}, {sine, -cosine / std::numbers::sqrt2}, length);
+    SCOPED_TRACE(miss);
+    ASSERT_EQ(r.status, TraceStatus::Converged);
+    const double before = start * cosine, behind = length - before;
+    EXPECT_NEAR(r.end.p.v * std::numbers::sqrt2, std::hypot(miss, behind), 1e-11);
+    const double turn = std::atan2(before, miss) + std::atan2(behind, miss);
+    EXPECT_NEAR(r.end.p.u, turn * std::numbers::sqrt2, 1e-11 / miss);
+    EXPECT_NEAR(r.end.y, length, 1e-10);
+    EXPECT_LT(r.evaluations, 4 * kManyEvaluations);
+  }
 }
 
 // A line on the cone to its tip: the length is the distance.
