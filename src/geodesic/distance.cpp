@@ -19,10 +19,13 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kSameLength = 1e-9;
 constexpr double kSameAngle = 1e-6;
 
-// The displacements of one parameter that lead to the same point: the nearer one and the one the other way round.
+// Of the displacements of one parameter that lead to the same point the nearer one.
+double nearer_way(double d, std::optional<double> period) { return period ? d - *period * std::round(d / *period) : d; }
+
+// And the one the other way round.
 std::vector<double> both_ways(double d, std::optional<double> period) {
   if (!period) return {d};
-  const double nearer = d - *period * std::round(d / *period);
+  const double nearer = nearer_way(d, period);
   return {nearer, nearer - std::copysign(*period, nearer)};
 }
 
@@ -143,7 +146,7 @@ void conclude(const Surface& surface, Uv from, Uv to, const DistanceOptions& opt
 
 DistanceFinder::DistanceFinder(SurfacePtr surface, const DistanceOptions& options)
     : surface_(std::move(surface)), options_(options) {
-  if (!has_closed_form(*surface_)) survey_.emplace(*surface_);
+  if (!has_closed_form(*surface_)) survey_.emplace(*surface_, options_.survey);
 }
 
 DistanceFinder::DistanceFinder(const Surface& surface, const DistanceOptions& options)
@@ -159,8 +162,7 @@ DistanceResult DistanceFinder::distance(Uv from, Uv to, std::optional<Polar> gue
     conclude(surface, from, to, options_, result);
     return result;
   }
-  const UvVec way{both_ways(to.u - from.u, surface.u_period()).front(),
-                  both_ways(to.v - from.v, surface.v_period()).front()};
+  const UvVec way{nearer_way(to.u - from.u, surface.u_period()), nearer_way(to.v - from.v, surface.v_period())};
   result.shortest = connect(surface, from, from + way, guess, options_.connect);
   result.status = result.shortest.status;
   keep(result, result.shortest);
@@ -231,7 +233,9 @@ bool DistanceFinder::search_fan_of(const Ends& ends, double bound, DistanceResul
 }
 
 DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOptions& options) {
-  return DistanceFinder(surface, options).distance(from, to);
+  DistanceOptions once = options;
+  once.survey = 0;  // the fewest cells: a single question does not pay for more
+  return DistanceFinder(surface, once).distance(from, to);
 }
 
 std::string explain(const DistanceResult& result) {

@@ -21,6 +21,9 @@ struct DistanceOptions {
   /// Whether far points are searched for all round by a fan of geodesics. Without it a distance that the curvature does
   /// not make certain stays uncertain.
   bool fan = true;
+  /// Most cells, in each direction, of the survey of the surface's curvature that a finder makes: on a surface of many
+  /// bumps more cells make more distances certain without a fan.
+  int survey = 96;
 };
 
 /// Why the shortest path that was found is the shortest.

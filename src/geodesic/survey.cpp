@@ -14,9 +14,13 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// In each direction. Two sample steps a cell: a feature as wide as a cell shows in the samples.
-constexpr int kCells = 24;
-constexpr int kSamples = 2 * kCells + 1;
+// Two sample steps a cell: a feature as wide as a cell shows in the samples. A first survey with few cells tells how
+// many it takes for none to be wider than a part of the smallest radius of curvature.
+constexpr int kFewestCells = 24;
+constexpr double kCellBend = 0.25;
+
+// Disks with less than this cannot hold a second geodesic; see second_geodesic_at_least.
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 // A function changes between samples by no more than this part of what it changes from sample to sample.
 constexpr double kAllowance = 0.5;
@@ -26,18 +30,19 @@ constexpr double kAllowance = 0.5;
 SurfaceSurvey::Sample SurfaceSurvey::sample(const Surface& surface, Uv p) {
   const SurfaceJet j = surface.jet(p);
   const double W = j.Su.cross(j.Sv).norm();
-  const double K = curvatures(j).gauss;
-  if (!(W > 0.0) || !std::isfinite(K)) return {kInf, kInf, kInf, kInf};
-  return {j.Sv.norm() / W, j.Su.norm() / W, K, W};
+  const Curvatures c = curvatures(j);
+  if (!(W > 0.0) || !std::isfinite(c.gauss)) return {kInf, kInf, kInf, kInf, 0.0, 0.0};
+  const double u = j.Su.norm(), v = j.Sv.norm();
+  return {v / W, u / W, c.gauss, W, c.largest() * u, c.largest() * v};
 }
 
 // An upper bound from the nine samples of a cell.
 template <class Value>
-double SurfaceSurvey::bound(const std::vector<Sample>& samples, int i, int j, Value value) {
+double SurfaceSurvey::bound(const std::vector<Sample>& samples, int i, int j, Value value) const {
   double lo = kInf, hi = -kInf;
   for (int b = 0; b <= 2; ++b)
     for (int a = 0; a <= 2; ++a) {
-      const double x = value(samples[(2 * j + b) * kSamples + 2 * i + a]);
+      const double x = value(samples[(2 * j + b) * (2 * u_.cells + 1) + 2 * i + a]);
       if (!std::isfinite(x)) return kInf;
       lo = std::min(lo, x);
       hi = std::max(hi, x);
@@ -45,7 +50,7 @@ double SurfaceSurvey::bound(const std::vector<Sample>& samples, int i, int j, Va
   return hi + kAllowance * (hi - lo);
 }
 
-double SurfaceSurvey::Axis::cell() const { return range.length() / kCells; }
+double SurfaceSurvey::Axis::cell() const { return range.length() / cells; }
 
 Interval SurfaceSurvey::Axis::reached(double x, double r) const {
   if (periodic) return {x - r, x + r};
@@ -54,27 +59,45 @@ Interval SurfaceSurvey::Axis::reached(double x, double r) const {
 
 int SurfaceSurvey::Axis::first(Interval reach) const {
   const int i = static_cast<int>(std::floor((reach.lo - range.lo) / cell()));
-  return periodic ? i : std::clamp(i, 0, kCells - 1);
+  return periodic ? i : std::clamp(i, 0, cells - 1);
 }
 
 int SurfaceSurvey::Axis::last(Interval reach) const {
   const int i = static_cast<int>(std::floor((reach.hi - range.lo) / cell()));
-  return periodic ? i : std::clamp(i, 0, kCells - 1);
+  return periodic ? i : std::clamp(i, 0, cells - 1);
 }
 
-SurfaceSurvey::SurfaceSurvey(const Surface& surface)
-    : u_{surface.domain().u, surface.u_period().has_value()}, v_{surface.domain().v, surface.v_period().has_value()} {
+SurfaceSurvey::SurfaceSurvey(const Surface& surface, int most_cells)
+    : u_{surface.domain().u, surface.u_period().has_value(), kFewestCells},
+      v_{surface.domain().v, surface.v_period().has_value(), kFewestCells} {
   const auto finite = [](Interval x) { return x.length() > 0.0 && x.length() < kInf; };
   usable_ = finite(u_.range) && finite(v_.range) && surface.continuity() > 0;
   if (!usable_) return;
+  std::vector<Sample> samples = take(surface);
+  double bend_u = 0.0, bend_v = 0.0;  // of the first survey's cells, in radii
+  for (const Sample& s : samples) {
+    bend_u = std::max(bend_u, s.bend_u * u_.cell());
+    bend_v = std::max(bend_v, s.bend_v * v_.cell());
+  }
+  const auto wanted = [most_cells](double bend) {
+    const double cells = std::ceil(kFewestCells * bend / kCellBend);
+    return static_cast<int>(std::clamp<double>(cells, kFewestCells, std::max(most_cells, kFewestCells)));
+  };
+  u_.cells = wanted(bend_u);
+  v_.cells = wanted(bend_v);
+  if (u_.cells > kFewestCells || v_.cells > kFewestCells) samples = take(surface);
+  cells_.reserve(static_cast<std::size_t>(u_.cells) * v_.cells);
+  for (int j = 0; j < v_.cells; ++j)
+    for (int i = 0; i < u_.cells; ++i) add_cell(samples, i, j);
+}
+
+std::vector<SurfaceSurvey::Sample> SurfaceSurvey::take(const Surface& surface) const {
   std::vector<Sample> samples;
-  samples.reserve(kSamples * kSamples);
-  for (int j = 0; j < kSamples; ++j)
-    for (int i = 0; i < kSamples; ++i)
+  samples.reserve(static_cast<std::size_t>(2 * u_.cells + 1) * (2 * v_.cells + 1));
+  for (int j = 0; j <= 2 * v_.cells; ++j)
+    for (int i = 0; i <= 2 * u_.cells; ++i)
       samples.push_back(sample(surface, {u_.range.lo + 0.5 * i * u_.cell(), v_.range.lo + 0.5 * j * v_.cell()}));
-  cells_.reserve(kCells * kCells);
-  for (int j = 0; j < kCells; ++j)
-    for (int i = 0; i < kCells; ++i) add_cell(samples, i, j);
+  return samples;
 }
 
 void SurfaceSurvey::add_cell(const std::vector<Sample>& samples, int i, int j) {
@@ -95,12 +118,13 @@ std::optional<SurfaceSurvey::Region> SurfaceSurvey::ball(Uv centre, double radiu
     double rate_u = 0.0, rate_v = 0.0;
     for (int j = v_.first(region.box.v); j <= v_.last(region.box.v); ++j)
       for (int i = u_.first(region.box.u); i <= u_.last(region.box.u); ++i) {
-        const Cell& cell = cells_[((j % kCells + kCells) % kCells) * kCells + (i % kCells + kCells) % kCells];
+        const Cell& cell = cells_[v_.wrapped(j) * u_.cells + u_.wrapped(i)];
         rate_u = std::max(rate_u, cell.rate_u);
         rate_v = std::max(rate_v, cell.rate_v);
         region.gauss = std::max(region.gauss, cell.gauss);
         region.total += cell.total;
       }
+    if (!(region.total < kFullTurn)) return std::nullopt;
     if (radius * rate_u <= r_u && radius * rate_v <= r_v) return region;
     r_u = std::max(r_u, radius * rate_u);
     r_v = std::max(r_v, radius * rate_v);
@@ -110,9 +134,9 @@ std::optional<SurfaceSurvey::Region> SurfaceSurvey::ball(Uv centre, double radiu
 }
 
 double second_geodesic_at_least(const SurfaceSurvey::Region& region, double length) {
-  if (!(region.total < 2.0 * std::numbers::pi)) return 0.0;
+  if (!(region.total < kFullTurn)) return 0.0;
   if (region.gauss <= 0.0) return kInf;
-  return 2.0 * std::numbers::pi / std::sqrt(region.gauss) - length;
+  return kFullTurn / std::sqrt(region.gauss) - length;
 }
 
 }  // namespace geovor

@@ -11,7 +11,8 @@ namespace geovor {
 
 class SurfaceSurvey {
  public:
-  explicit SurfaceSurvey(const Surface& surface);
+  /// `most_cells` in each direction, where the surface is curved so much that fewer are too wide to tell anything.
+  explicit SurfaceSurvey(const Surface& surface, int most_cells);
 
   /// A rectangle of the parameter plane that holds every path of a length from a point, with bounds of what is in it.
   struct Region {
@@ -20,14 +21,16 @@ class SurfaceSurvey {
     double total = 0.0;  ///< the integral of the curvature, where it is positive, is no larger
   };
 
-  /// Nothing where the rectangle would wrap a period, reaches a place without tangent plane (a pole), or the surface
-  /// has creases, which hold curvature of their own. The bounds are those of samples, with an allowance for what lies
-  /// between them; they are no proof for a surface that changes from one sample to the next beyond recognition.
+  /// Nothing where the rectangle would wrap a period, reaches a place without tangent plane (a pole) or holds a
+  /// total of 2 pi, or the surface has creases, which hold curvature of their own. The bounds are those of samples,
+  /// with an allowance for what lies between them; they are no proof for a surface that changes from one sample to the
+  /// next beyond recognition.
   std::optional<Region> ball(Uv centre, double radius) const;
 
  private:
   struct Sample {
     double rate_u, rate_v, gauss, density;  // density: of the area
+    double bend_u, bend_v;                  // what a unit of u, of v turns at most
   };
   struct Cell {
     double rate_u = 0.0, rate_v = 0.0;  ///< |du/ds|, |dv/ds| of a path are no larger
@@ -37,15 +40,18 @@ class SurfaceSurvey {
   struct Axis {
     Interval range;
     bool periodic = false;
+    int cells = 0;
     double cell() const;
+    int wrapped(int i) const { return (i % cells + cells) % cells; }
     Interval reached(double x, double r) const;
     bool wraps(double r) const { return periodic && 2.0 * r >= range.length(); }
     int first(Interval reach) const;
     int last(Interval reach) const;
   };
   static Sample sample(const Surface& surface, Uv p);
+  std::vector<Sample> take(const Surface& surface) const;
   template <class Value>
-  static double bound(const std::vector<Sample>& samples, int i, int j, Value value);
+  double bound(const std::vector<Sample>& samples, int i, int j, Value value) const;
   void add_cell(const std::vector<Sample>& samples, int i, int j);
 
   bool usable_ = false;
