@@ -12,13 +12,20 @@
 namespace geovor {
 namespace {
 
-const Sphere* as_sphere(const Surface& surface) { return dynamic_cast<const Sphere*>(&surface); }
+// The kind is asked first: a cast that fails costs as much as several jets. A surface under other parameters is of its
+// base's kind, but not of its class.
+template <class S>
+const S* as(SurfaceKind kind, const Surface& surface) {
+  return surface.kind() == kind ? dynamic_cast<const S*>(&surface) : nullptr;
+}
 
-const Cone* as_cone(const Surface& surface) { return dynamic_cast<const Cone*>(&surface); }
+const Sphere* as_sphere(const Surface& surface) { return as<Sphere>(SurfaceKind::Sphere, surface); }
+
+const Cone* as_cone(const Surface& surface) { return as<Cone>(SurfaceKind::Cone, surface); }
 
 // Plane and cylinder: E, F and G are constants.
 bool is_flat(const Surface& surface) {
-  return dynamic_cast<const Plane*>(&surface) != nullptr || dynamic_cast<const Cylinder*>(&surface) != nullptr;
+  return as<Plane>(SurfaceKind::Plane, surface) != nullptr || as<Cylinder>(SurfaceKind::Cylinder, surface) != nullptr;
 }
 
 double turn(double s, double t, double s_guess, double t_guess) {
