@@ -9,10 +9,11 @@
 namespace geovor::bench {
 namespace {
 
-constexpr int kStarts = 256;
+constexpr int kStarts = 1024;
 constexpr double kTolerance = 1e-13;
 constexpr double kKnotStep = 0.5;
-const UvBox kStartBox{{-3, 3}, {-3, 3}};
+const Interval kPeriod{-std::numbers::pi, std::numbers::pi};
+const UvBox kStartBox{kPeriod, kPeriod};
 
 struct Case {
   double length;
