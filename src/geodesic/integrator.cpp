@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geodesic/pole_passage.h"
 #include "numeric/dop853.h"
@@ -234,8 +235,27 @@ TraceStatus GeodesicIntegrator::advance(double s) {
 // whole length.
 double GeodesicIntegrator::error_of(double place, double turn, double h) const {
   const double difference = std::max(place / length_, turn);
-  const double allowed = kAllowed * options_.tolerance * std::pow(h / length_, kShare);
-  return dop853::error_estimate(difference) / allowed;
+  return dop853::error_estimate(difference) / allowed_error(h);
+}
+
+// Rounding looks the same, but that it does not fall with the step: what has not fallen by the third power after a
+// rejection is taken for it from then on.
+double GeodesicIntegrator::unsettled_error_of(const dop853::Step<GeodesicVector>& step, double h) {
+  constexpr double kRounding = 4.0, kLeast = 2.0 * std::numeric_limits<double>::epsilon();
+  const auto size = [this](const GeodesicVector& e) {
+    return std::max((length_of({e[0], e[1]}) + std::abs(e[4])) / length_, length_of({e[2], e[3]}) + std::abs(e[5]));
+  };
+  const double difference = size(step.error5);
+  if (!(difference > std::max(kLeast, kRounding * rounding_ * h))) return 0.0;
+  const double error = dop853::unsettled_error(difference, size(step.error3)) / allowed_error(h);
+  const double per_cube = error > 1.0 ? difference / (h * h * h) : 0.0, before = std::exchange(unsettled_, per_cube);
+  if (!(error > 1.0 && before > 0.0 && per_cube >= before)) return error;
+  rounding_ = difference / h;
+  return 0.0;
+}
+
+double GeodesicIntegrator::allowed_error(double h) const {
+  return kAllowed * options_.tolerance * std::pow(h / length_, kShare);
 }
 
 // Near a pole the path goes on in its chart: there the surface's own parameters turn ever faster.
@@ -294,7 +314,9 @@ TraceStatus GeodesicIntegrator::step(double remaining) {
   cap_ = kInf;
   const auto trial = dop853::step(x_, slope_, h, [this](const GeodesicVector& x) { return slope_at(x); });
   const GeodesicVector& e = trial.error5;
-  const double error = error_of(length_of({e[0], e[1]}) + std::abs(e[4]), length_of({e[2], e[3]}) + std::abs(e[5]), h);
+  const double settled =
+      error_of(length_of({e[0], e[1]}) + std::abs(e[4]), length_of({e[2], e[3]}) + std::abs(e[5]), h);
+  const double error = std::max(settled, unsettled_error_of(trial, h));
   // The last stage stands at the step's end. A normal that has turned about there means a singular line run over
   // unseen.
   const bool regular = last_normal_.dot(normal_) > 0.0;

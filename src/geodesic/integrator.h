@@ -8,6 +8,7 @@
 #include "geodesic/path_leg.h"
 #include "geodesic/piece.h"
 #include "geodesic/slowed_time.h"
+#include "numeric/dop853.h"
 #include "surface/forms.h"
 
 namespace geovor {
@@ -68,6 +69,8 @@ class GeodesicIntegrator {
   std::optional<TraceStatus> slowed_step(double remaining, const BorderSlack& beyond);
   bool reject(double h, double factor, bool regular);
   double error_of(double place, double turn, double h) const;
+  double unsettled_error_of(const dop853::Step<GeodesicVector>& step, double h);
+  double allowed_error(double h) const;
   BorderSlack slack() const;
   Exit exit_of(const GeodesicVector& end, double h, const BorderSlack& beyond);
   Exit dip_at(Exit turn, const BorderSlack& beyond);
@@ -97,6 +100,8 @@ class GeodesicIntegrator {
   double rate_ = 0.0;              ///< the metric's, at x_
   bool fading_ = false;            ///< it is the metric that makes steps short
   double cap_;                     ///< the next step alone may not be longer: a border is known to lie there
+  double unsettled_ = 0.0;  ///< difference of orders over h^3 in the last step, if that was too long for the orders
+  double rounding_ = 0.0;   ///< in differences of orders, per length, where it has shown
   double covered_ = 0.0;
   double worst_error_ = 0.0;  ///< of an accepted step, in parts of what it was allowed
   int steps_ = 0;

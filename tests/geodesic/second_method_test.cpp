@@ -7,6 +7,7 @@
 #include <random>
 
 #include "geodesic/connect.h"
+#include "geodesic/distance.h"
 #include "geodesic/trace.h"
 #include "support/differences.h"
 #include "support/geodesic_oracles.h"
@@ -125,6 +126,56 @@ TEST_P(SecondMethod, AgreesWithConnections) {
   EXPECT_LT(angle, kBar);
   EXPECT_LT(end_direction, kBar);
   EXPECT_LT(y, kBar);
+}
+
+// Steps come from flat ground, as far as from 1e-13 of the bump's height, and end where it rises; and neighbours spread
+// behind it by 20 radians a radian.
+class TallBump : public ::testing::Test {
+ protected:
+  static constexpr double kHeight = 3.0, kWidth = 0.3;
+  const UvBox square_{{-2.0, 2.0}, {-2.0, 2.0}};
+  GaussianBumps bump_{{{{0.0, 0.0}, kHeight, kWidth}}, square_};
+  QuadBump quad_{kHeight, kWidth};
+};
+
+TEST_F(TallBump, TracesFromFlatGroundKeepTheirTolerance) {
+  std::mt19937 random(5);
+  TraceOptions options;
+  options.stop_at_domain = false;
+  for (const double tolerance : {1e-9, 1e-12}) {
+    options.tolerance = tolerance;
+    double worst = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      const Uv p = random_point(random, square_);
+      const double towards = std::atan2(-p.v, -p.u) + uniform(random, -0.2, 0.2), s = 4.0;
+      const UvVec d = UvVec{std::cos(towards), std::sin(towards)};
+      const TraceResult path = trace_geodesic(bump_, p, d, s, options);
+      ASSERT_EQ(path.status, TraceStatus::Converged);
+      const QuadEnd truth = quad_geodesic(quad_, p, d, Float128(s));
+      worst = std::max(worst, errors_of(quad_, truth, path.end).place / (s * growth(truth, s)));
+    }
+    EXPECT_LT(worst, 5.0 * tolerance);
+  }
+}
+
+TEST_F(TallBump, DistancesAcrossItKeepTheirTolerance) {
+  constexpr double kTolerance = 1e-12;
+  std::mt19937 random(6);
+  DistanceOptions options;
+  options.connect.tolerance = kTolerance;
+  const DistanceFinder finder(bump_, options);
+  for (int i = 0; i < 60; ++i) {
+    const Uv p = i == 0 ? Uv{-1.69237, -1.60349} : random_point(random, square_);
+    const Uv q = i == 0 ? Uv{1.05903, 1.03831} : Uv{-uniform(random, 0.5, 1.1) * p.u, -uniform(random, 0.5, 1.1) * p.v};
+    const DistanceResult r = finder.distance(p, q);
+    ASSERT_EQ(r.status, ConnectStatus::Converged);
+    for (const Connection& c : r.candidates) {
+      const QuadEnd end = quad_geodesic(quad_, p, c.start_direction, Float128(c.length));
+      const QuadVec miss = quad_jet(quad_, q).S - end.x;
+      EXPECT_LT(static_cast<double>(abs(dot(miss, end.tangent))), 5.0 * kTolerance * c.length) << i;
+      EXPECT_LT(static_cast<double>(abs(dot(miss, end.across) / end.y)), 5.0 * kTolerance) << i;
+    }
+  }
 }
 
 }  // namespace
