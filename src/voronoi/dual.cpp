@@ -1,6 +1,7 @@
 #include "voronoi/dual.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "geodesic/distance.h"
@@ -22,13 +23,15 @@ Polar guess_across(const DiagramEdge& e) {
   return {2.0 * nearest->radius, nearest->left_angle};
 }
 
-DualEdge join(const SiteRays& rays, const DiagramEdge& e) {
+// `finder` is made by the first edge that needs it: most diagrams have none.
+DualEdge join(const SiteRays& rays, const DiagramEdge& e, std::optional<DistanceFinder>& finder) {
   DualEdge dual{e.left, e.right, 0.0, {}, {}};
   Polar polar;
   if (const auto ray = rays.to(e.left, rays.site(e.right), guess_across(e))) {
     polar = ray->polar;
   } else {
-    const Connection c = distance(rays.surface(), rays.site(e.left), rays.site(e.right)).shortest;
+    if (!finder) finder.emplace(rays.surface());
+    const Connection c = finder->distance(rays.site(e.left), rays.site(e.right)).shortest;
     polar = {c.length, c.angle};
   }
   dual.length = polar.s;
@@ -80,8 +83,9 @@ DualGraph dual_of(const Surface& surface, const VoronoiDiagram& diagram) {
   for (const DiagramSite& s : diagram.sites) sites.push_back(s.uv);
   const SiteRays rays(surface, sites);
   DualGraph dual;
+  std::optional<DistanceFinder> finder;
   for (const DiagramEdge& e : diagram.edges) {
-    if (e.kind == EdgeKind::Bisector) dual.edges.push_back(join(rays, e));
+    if (e.kind == EdgeKind::Bisector) dual.edges.push_back(join(rays, e, finder));
   }
   for (const DiagramVertex& v : diagram.vertices) add_fan(v, dual.triangles);
   dual.why_not = why_no_triangulation(diagram, dual);
