@@ -50,6 +50,7 @@ Connection connect(const Surface& surface, Uv from, Uv to, std::optional<Polar> 
   c.evaluations = kEndJets;
   if (!ends.start.n.allFinite()) {
     c.status = ConnectStatus::DegenerateMetric;
+    c.degenerate_at = from;
     return c;
   }
   if (!guess && same_point(surface, ends)) return zero_length(ends, 0.0);

@@ -40,6 +40,8 @@ struct Connection {
   bool leaves_domain = false;  ///< the path runs outside Surface::domain() on its way
   int iterations = 0;
   int evaluations = 0;
+  /// With DegenerateMetric: where the tangent plane is missing, the start itself or where the last shot lost it.
+  std::optional<Uv> degenerate_at;
 };
 
 /// The log map: the geodesic from `from` that ends at `to`, by shooting with the Jacobi field as Newton's derivative

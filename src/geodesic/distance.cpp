@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "geodesic/closed_forms.h"
 #include "geodesic/fan.h"
@@ -238,6 +239,17 @@ DistanceResult distance(const Surface& surface, Uv from, Uv to, const DistanceOp
   return DistanceFinder(surface, once).distance(from, to);
 }
 
+namespace {
+
+std::string place(const std::optional<Uv>& at) {
+  if (!at) return "";
+  std::ostringstream text;
+  text << ", at (" << at->u << ", " << at->v << ")";
+  return text.str();
+}
+
+}  // namespace
+
 std::string explain(const DistanceResult& result) {
   switch (result.certainty) {
     case Certainty::ClosedForm:
@@ -251,7 +263,7 @@ std::string explain(const DistanceResult& result) {
   }
   switch (result.doubt) {
     case Doubt::Degenerate:
-      return "not certain: a place without tangent plane stands in the way";
+      return "not certain: a place without tangent plane stands in the way" + place(result.shortest.degenerate_at);
     case Doubt::LeavesDomain:
       return "not certain: the path leaves the surface's domain";
     case Doubt::NotSearched:

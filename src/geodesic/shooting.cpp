@@ -229,7 +229,10 @@ Connection shoot(const Surface& surface, const Ends& ends, Polar guess, const Co
     last.angle = aim.t;
     last.residual = shot.residual;
     last.iterations = i;
-    if (shot.status == TraceStatus::DegenerateMetric) last.status = ConnectStatus::DegenerateMetric;
+    if (shot.status == TraceStatus::DegenerateMetric) {
+      last.status = ConnectStatus::DegenerateMetric;
+      last.degenerate_at = shot.state.p;
+    }
     const Demand demand(shot, ends, options.tolerance);
     y_slope.expect(demand.y_turn);
     if (before) y_slope.learn(*before, shot);

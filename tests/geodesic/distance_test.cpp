@@ -211,5 +211,45 @@ TEST(Distance, SaysWhereThePathLeavesTheDomain) {
   EXPECT_EQ(r.doubt, Doubt::LeavesDomain);
 }
 
+// The plane with x = u^3: no tangent plane of the map on the border u = 0.
+class CubedPlane final : public Surface {
+ public:
+  SurfaceKind kind() const override { return SurfaceKind::Function; }
+  UvBox domain() const override { return {{0.0, 1.0}, {0.0, 1.0}}; }
+  SurfaceJet jet(Uv p) const override {
+    return {{p.u * p.u * p.u, p.v, 0.0},
+            {3.0 * p.u * p.u, 0.0, 0.0},
+            {0.0, 1.0, 0.0},
+            {6.0 * p.u, 0.0, 0.0},
+            {0.0, 0.0, 0.0},
+            {0.0, 0.0, 0.0}};
+  }
+  using Surface::jet;
+};
+
+TEST(Distance, NamesThePlaceWithoutTangentPlane) {
+  const CubedPlane plane;
+  const DistanceResult r = distance(plane, {0.0, 0.25}, {0.8, 0.5});
+  EXPECT_EQ(r.status, ConnectStatus::DegenerateMetric);
+  ASSERT_TRUE(r.shortest.degenerate_at.has_value());
+  EXPECT_EQ(*r.shortest.degenerate_at, (Uv{0.0, 0.25}));
+  EXPECT_EQ(explain(r), "not certain: a place without tangent plane stands in the way, at (0, 0.25)");
+}
+
+TEST(Distance, ToAPlaceWithoutTangentPlaneIsRightOrNone) {
+  const CubedPlane plane;
+  for (const double v : {0.0, 0.25, 0.5, 1.0}) {
+    const DistanceResult r = distance(plane, {0.8, 0.5}, {0.0, v});
+    EXPECT_TRUE(std::isfinite(r.shortest.length) && std::isfinite(r.shortest.angle) && std::isfinite(r.shortest.y));
+    EXPECT_TRUE(is_finite(r.shortest.start_direction) && is_finite(r.shortest.end_direction));
+    if (r.status == ConnectStatus::Converged) {
+      EXPECT_NEAR(r.shortest.length, std::hypot(0.512, v - 0.5), 1e-11) << v;
+    }
+    if (r.status == ConnectStatus::DegenerateMetric) {
+      EXPECT_TRUE(r.shortest.degenerate_at.has_value()) << v;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace geovor
