@@ -109,10 +109,17 @@ std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Conn
   return DomainExit{path.end.p, path.length};
 }
 
+// Relative. Lengths that differ by less are equal as far as two runs of the solver can tell, and as far as a symmetric
+// shape is symmetric once a file has carried it.
+double equal_lengths(const DistanceOptions& options) {
+  constexpr double kErrors = 10.0, kFile = 1e-11;
+  return std::max(kErrors * options.connect.tolerance, kFile);
+}
+
 // Every direction is as good where a few others, followed as far, end at the same point too. Only where the paths' ends
 // are conjugate need that be tried; on a sphere conjugate points are opposite ones.
 bool is_family(const Surface& surface, Uv from, Uv to, const Connection& c, const DistanceOptions& options) {
-  constexpr double kConjugate = 1e-6, kOpposite = 1e-14, kErrors = 100.0;
+  constexpr double kConjugate = 1e-6, kOpposite = 1e-14, kPaths = 10.0;
   if (has_closed_form(surface))
     return surface.kind() == SurfaceKind::Sphere && std::abs(c.y) <= kOpposite * c.length && c.length > 0.0;
   if (!(c.length > 0.0 && std::abs(c.y) <= kConjugate * c.length)) return false;
@@ -124,18 +131,16 @@ bool is_family(const Surface& surface, Uv from, Uv to, const Connection& c, cons
   for (const double turn : {1.0, 2.5, 4.0}) {
     GeodesicIntegrator path(surface, from, frame.at_angle(c.angle + turn), c.length, trace);
     if (path.advance(c.length) != TraceStatus::Converged) return false;
-    if (!((path.at().S - target).norm() <= kErrors * options.connect.tolerance * c.length)) return false;
+    if (!((path.at().S - target).norm() <= kPaths * equal_lengths(options) * c.length)) return false;
   }
   return true;
 }
 
 void conclude(const Surface& surface, Uv from, Uv to, const DistanceOptions& options, DistanceResult& result) {
   if (result.candidates.empty()) return;
-  // Lengths that differ by less are equal as far as two runs of the solver can tell.
-  constexpr double kErrors = 10.0;
   result.shortest = result.candidates.front();
   result.status = result.shortest.status;
-  const double tie = result.shortest.length * (1.0 + kErrors * options.connect.tolerance);
+  const double tie = result.shortest.length * (1.0 + equal_lengths(options));
   for (const Connection& c : result.candidates)
     if (c.length <= tie) result.shortest_paths.push_back(c);
   result.family = is_family(surface, from, to, result.shortest, options);

@@ -45,6 +45,13 @@ double sag_in_space(const PathPoint& a, const PathPoint& middle, const PathPoint
 
 double rounding_at(const Xyz& x) { return kRounding * x.cwiseAbs().maxCoeff(); }
 
+// One question does not notice what the last digits cost.
+DistanceOptions all_digits() {
+  DistanceOptions options;
+  options.connect.tolerance = 1e-14;
+  return options;
+}
+
 void warn(FaceDistance& d) {
   if (d.leaves_face()) {
     d.warnings.push_back(
@@ -70,7 +77,7 @@ FaceDistances::FaceDistances(const CadModel& model, const CadFace& face)
       tolerance_(face_tolerance(face)),
       domain_(model, face, kPolylineShare * tolerance_),
       printed_tolerance_(printed_tolerance(domain_, face)),
-      finder_(face.surface) {}
+      finder_(face.surface, all_digits()) {}
 
 FacePlace FaceDistances::place(const FacePoint& point, bool snap) const {
   return place_on_face(domain_, point, printed_tolerance_, snap);

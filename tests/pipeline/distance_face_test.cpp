@@ -66,6 +66,19 @@ TEST(DistanceOnFace, TellsTheWayThatStaysWhereTheShortestPathRunsThroughAGap) {
   EXPECT_NEAR(*d.stays_on_face, 10.0 * (1.5 * kPi - 0.5), 1e-12);
 }
 
+TEST(DistanceOnFace, PathsEndWhereTheyWereSentThoughTheirNeighboursSpread) {
+  // Through the hole of a torus, y at the end ten times the length. In the mirror x -> -x a path is its own return.
+  const TestFace torus = whole(std::make_shared<Torus>(Frame{}, 20.0, 6.0));
+  const FaceDistance d = measure(torus, {0.0, 0.0}, {kPi, 0.0});
+  EXPECT_EQ(d.paths.size(), 4u);
+  for (const FacePath& path : d.paths) {
+    EXPECT_GT(path.connection.y, 5.0 * d.length());
+    EXPECT_LT((path.points.back().xyz - Xyz(-26.0, 0.0, 0.0)).norm(), 2e-12);
+    const Xyz start = path.points.front().tangent;
+    EXPECT_LT((path.end_tangent - Xyz(start.x(), -start.y(), -start.z())).norm(), 2e-13);
+  }
+}
+
 TEST(DistanceOnFace, IsSettledWhereOneOfTwoShortestPathsStays) {
   // The two half circles are equally long; one runs through the window.
   TestFace tube = TestFace(cylinder(10.0)).ring({{0.0, 2.0 * kPi}, {0.0, 20.0}});
