@@ -55,7 +55,7 @@ std::vector<CadCurve> curves_of(const FaceDistances& face, const FaceDistance& d
   std::vector<CadCurve> curves;
   for (const FacePath& path : distance.paths) {
     const std::string name = distance.paths.size() == 1 ? "path" : fmt::format("path {}", curves.size() + 1);
-    curves.push_back(face.spline(distance.from, path, name));
+    curves.push_back(face.spline(path, name));
   }
   return curves;
 }
@@ -118,6 +118,11 @@ void print_summary(const CadModel& model, const CadFace& face, const FaceDistanc
 }
 
 [[noreturn]] void fail(const std::string& where, const FaceDistance& distance) {
+  if (distance.result.status == ConnectStatus::Converged) {
+    throw Error(ErrorCode::FaceRejected,
+                fmt::format("{}: the distance is {}, but {}; other points, or a repaired face, may mend it", where,
+                            distance.length(), distance.warnings.front().text));
+  }
   throw Error(ErrorCode::FaceRejected,
               fmt::format("{}: no shortest path was found ({}); other points, or a repaired face, may mend it", where,
                           explain(distance.result)));
@@ -159,7 +164,8 @@ int run(const DistanceArguments& arguments) {
   }
   print_summary(model, face, distance);
   for (const std::string& path : arguments.outputs) line("wrote", path);
-  return distance.leaves_face() ? static_cast<int>(ErrorCode::FaceRejected) : 0;
+  const bool whole = distance.paths.size() == distance.result.shortest_paths.size();
+  return distance.leaves_face() || !whole ? static_cast<int>(ErrorCode::FaceRejected) : 0;
 }
 
 }  // namespace geovor

@@ -16,7 +16,7 @@ struct Polar {
 enum class ConnectStatus {
   Converged,
   NotConverged,      ///< the iteration did not settle; the rest of the result is its last state
-  DegenerateMetric,  ///< a pole or collapsed side stood in the way
+  DegenerateMetric,  ///< a place without tangent plane stood in the way, or is an end
 };
 
 struct ConnectOptions {
@@ -36,7 +36,7 @@ struct Connection {
   UvVec start_direction;       ///< unit, at the start, pointing along the path
   UvVec end_direction;         ///< unit, at the end, pointing on along the path
   double y = 0.0;              ///< Jacobi field at the end (y = 0 at the start)
-  double residual = 0.0;       ///< distance in space between the path's end and the point asked for
+  double residual = 0.0;       ///< estimate of the distance in space between the path's end and the point asked for
   bool leaves_domain = false;  ///< the path runs outside Surface::domain() on its way
   int iterations = 0;
   int evaluations = 0;
@@ -45,8 +45,9 @@ struct Connection {
 };
 
 /// The log map: the geodesic from `from` that ends at `to`, by shooting with the Jacobi field as Newton's derivative
-/// (the residual is measured in space, so a `to` given one period away is the same point). Without a guess the straight
-/// line in the parameter plane is the guess. Finds a geodesic, not always the shortest; see geodesic/distance.h.
+/// (the residual is measured in space, so a `to` given one period away is the same point). Without a guess near points
+/// are joined by collocation, others by shooting from what the chord and the straight line in the parameter plane
+/// suggest, in the end by the energy method. Finds a geodesic, not always the shortest; see geodesic/distance.h.
 Connection connect(const Surface& surface, Uv from, Uv to, std::optional<Polar> guess = std::nullopt,
                    const ConnectOptions& options = {});
 

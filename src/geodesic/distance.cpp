@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "geodesic/closed_forms.h"
@@ -15,6 +16,9 @@ namespace geovor {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
+
+// Hits of a fan are good to this part of their length.
+constexpr double kHitError = 0.03;
 
 // Two results are one geodesic if they agree to this in length (relative) and in the angle at the start.
 constexpr double kSameLength = 1e-9;
@@ -96,17 +100,17 @@ double length_of(const Surface& surface, const std::vector<Uv>& points) {
 
 // A hit beside a geodesic that is known already.
 bool is_known(const FanHit& hit, const std::vector<Connection>& all) {
-  constexpr double kNear = 0.03;  // of the length: hits are good to some percent
   return hit.plain && std::any_of(all.begin(), all.end(), [&](const Connection& c) {
-           return std::abs(c.length - hit.at.s) <= kNear * c.length &&
+           return std::abs(c.length - hit.at.s) <= kHitError * c.length &&
                   std::abs(std::remainder(c.angle - hit.at.t, 2.0 * M_PI)) <= 0.5 * hit.turn;
          });
 }
 
 std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Connection& c) {
   if (!c.leaves_domain) return std::nullopt;
-  const TraceResult path = trace_geodesic(surface, from, c.start_direction, c.length);
-  return DomainExit{path.end.p, path.length};
+  GeodesicIntegrator path(surface, from, tangent_frame(surface, from).at_angle(c.angle), c.length, TraceOptions{});
+  path.advance(c.length);
+  return DomainExit{path.at().p, path.covered()};
 }
 
 // Relative. Lengths that differ by less are equal as far as two runs of the solver can tell, and as far as a symmetric
@@ -161,8 +165,10 @@ DistanceFinder::DistanceFinder(const Surface& surface, const DistanceOptions& op
 DistanceResult DistanceFinder::distance(Uv from, Uv to, std::optional<Polar> guess) const {
   const Surface& surface = *surface_;
   DistanceResult result;
+  if (!is_finite(from) || !is_finite(to)) return result;
   if (const auto closed = connections_closed_form(surface, from, to)) {
     for (const Connection& c : *closed) keep(result, c);
+    if (result.candidates.empty()) return result;  // the two nappes of a cone meet in its tip only
     result.certainty = Certainty::ClosedForm;
     result.doubt = Doubt::None;
     conclude(surface, from, to, options_, result);
@@ -223,13 +229,25 @@ bool DistanceFinder::search_fan_of(const Ends& ends, double bound, DistanceResul
   result.evaluations += fan.evaluations;
   ConnectOptions once = options_.connect;
   once.persist = false;
-  for (const FanHit& hit : fan.hits)
-    if (!is_known(hit, result.candidates)) keep(result, connect(*surface_, ends.from, ends.to, hit.at, once));
+  std::vector<FanHit> unsettled;
+  for (const FanHit& hit : fan.hits) {
+    if (is_known(hit, result.candidates)) continue;
+    const Connection c = connect(*surface_, ends.from, ends.to, hit.at, once);
+    if (c.status != ConnectStatus::Converged && hit.plain) unsettled.push_back(hit);
+    keep(result, c);
+  }
+  // A plain hit from which no geodesic was found may stand for a shorter one; nor was anything searched beyond the
+  // fan's reach.
+  const auto in_doubt = [&](double length) {
+    return length > kFanReach * bound || std::any_of(unsettled.begin(), unsettled.end(), [&](const FanHit& hit) {
+             return hit.at.s < (1.0 - kHitError) * length && !is_known(hit, result.candidates);
+           });
+  };
   if (result.candidates.empty()) {
     result.doubt = Doubt::NotConverged;
   } else if (result.candidates.front().leaves_domain) {
     result.doubt = Doubt::LeavesDomain;
-  } else if (!fan.complete) {
+  } else if (!fan.complete || in_doubt(result.candidates.front().length)) {
     result.doubt = Doubt::FanLost;
   } else {
     result.certainty = Certainty::Fan;

@@ -29,7 +29,6 @@ constexpr int kMostHalvings = 9;
 
 // A ray is given up where the way so far and the chord to the target are longer than this many lengths, and in parts of
 // the domain, so far beyond its border: what lies at the rim is between rays as well.
-constexpr double kBeyond = 1.05;
 constexpr double kBeyondBorder = 0.05;
 
 struct Sample {
@@ -123,7 +122,7 @@ Ray Search::follow(double t) {
   options.tolerance = kRayTolerance;
   options.stop_at_domain = false;
   options.max_steps = 2 * kMostSamples;
-  const double end = kBeyond * length_;
+  const double end = kFanReach * length_;
   GeodesicIntegrator path(surface_, from_, frame_.at_angle(t), end, options);
   for (int i = 0; i < kMostSamples; ++i) {
     const auto x = sample(path, ray);
@@ -197,8 +196,12 @@ void Search::look(const Ray& ray, const Ray& before, const Ray& after) {
     const double change = std::max(std::abs(y_at(before, s) - y), std::abs(y_at(after, s) - y));
     if (!(std::abs(b) <= turn * (std::abs(y) + change) + 0.02 * h)) continue;
     const double off = std::clamp(b / y, -turn, turn);
+    // A target that far above the ray's surface lies on another sheet of it.
+    const double above = std::abs((target_ - cubic(p.X, p.T, q.X, q.T, h, k)).dot(n.normalized()));
     constexpr double kPlain = 0.5;
-    fan_.hits.push_back({{s, ray.t + (std::isfinite(off) ? off : 0.0)}, turn, change < kPlain * std::abs(y)});
+    fan_.hits.push_back({{s, ray.t + (std::isfinite(off) ? off : 0.0)},
+                         turn,
+                         change < kPlain * std::abs(y) && above < kPlain * p.step});
   }
 }
 

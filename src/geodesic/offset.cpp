@@ -14,6 +14,7 @@ namespace geovor {
 // The erratum's (y/W) (-(F u' + G v'), E u' + F v') is y n x T in coordinates. Taken from the vectors it keeps the
 // digits that F^2 - EG loses where parameter lines are sheared.
 OffsetJet offset(const Surface& surface, Uv p, double s, double t, const TraceOptions& options) {
+  check_length(s);
   const Xyz T = tangent_frame(surface, p).at_angle(t);
   OffsetJet o;
   SurfaceJet j;

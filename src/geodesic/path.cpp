@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "geodesic/closed_form_path.h"
 #include "geodesic/closed_forms.h"
 #include "geodesic/integrator.h"
@@ -12,14 +11,6 @@
 #include "surface/forms.h"
 
 namespace geovor {
-namespace {
-
-void check_length(double length) {
-  if (!(length >= 0.0) || !std::isfinite(length))
-    throw Error(ErrorCode::Usage, "the length of a geodesic is negative or no number; give a length of zero or more");
-}
-
-}  // namespace
 
 GeodesicPath::GeodesicPath(const Surface& surface, Uv start, UvVec direction, double length, const PathOptions& options)
     : surface_(&surface), start_(start) {

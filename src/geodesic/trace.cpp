@@ -13,12 +13,12 @@ namespace {
 // Sums of steps reach the length asked for to this.
 constexpr double kRounding = 1e-14;
 
+}  // namespace
+
 void check_length(double length) {
   if (!(length >= 0.0) || !std::isfinite(length))
     throw Error(ErrorCode::Usage, "the length of a geodesic is negative or no number; give a length of zero or more");
 }
-
-}  // namespace
 
 TraceResult trace_geodesic(const Surface& surface, Uv start, UvVec direction, double length,
                            const TraceOptions& options) {

@@ -55,17 +55,20 @@ struct TraceResult {
   int evaluations = 0;  ///< surface jets
 };
 
+/// Throws Error(Usage) where `length` is none that a geodesic may have: negative, infinite or NaN.
+void check_length(double length);
+
 /// Follows the geodesic from `start` along `direction` (of any length but zero; it is normalized in the metric).
-/// Promises: with status Converged the end lies within 5 * options.tolerance * length of the true one, knots, creases
-/// and poles and all (on the wave at 1e-13 the worst of 1000 random paths of length 0.1, 0.5 and 2 has 3.8, 3.1 and 0.6
-/// tolerances; one in several thousand short ones may have 6): the integrator (Dormand-Prince 8(5,3)) works on one
-/// analytic piece at a time, restarts on the line between two, and passes poles in their charts.
-/// y is as exact, with one exception that is no fault of the steps: where the curvature jumps (a C1 line) y' changes by
-/// the jump times y times the arc length beyond the line, and a path that dips beyond it by d stays there for
-/// sqrt(8 d / k), k its curvature against the line. So an error e of the place, rounding at least, is one of
-/// sqrt(8 (d + e) / k) - sqrt(8 d / k) of that length, and a dip below e need not be seen at all. In the same way y
-/// behind a crease met at the angle a knows what the path's direction knows, times 1 / sin a.
-/// Does not promise that the path is shortest; see geodesic/distance.h.
+/// Promises: with status Converged the end lies, as a rule, within 5 * options.tolerance * length of the true one,
+/// knots, creases and poles and all (on the wave at 1e-13 the worst of 1000 random paths of length 0.1, 0.5 and 2
+/// has 3.8, 3.1 and 0.6 tolerances; one in several thousand short ones has 6): the integrator (Dormand-Prince 8(5,3))
+/// works on one analytic piece at a time, restarts on the line between two, and passes poles in their charts. y is as
+/// exact, with one exception that is no fault of the steps: where the curvature jumps (a C1 line) y' changes by the
+/// jump times y times the arc length beyond the line, and a path that dips beyond it by d stays there for sqrt(8 d /
+/// k), k its curvature against the line. So an error e of the place, rounding at least, is one of sqrt(8 (d + e) / k) -
+/// sqrt(8 d / k) of that length, and a dip below e need not be seen at all. In the same way y behind a crease met at
+/// the angle a knows what the path's direction knows, times 1 / sin a. Does not promise that the path is shortest; see
+/// geodesic/distance.h.
 TraceResult trace_geodesic(const Surface& surface, Uv start, UvVec direction, double length,
                            const TraceOptions& options = {});
 

@@ -59,6 +59,11 @@ void warn(FaceDistance& d) {
          std::string("the shortest path leaves the face: the length is that of the surface without its trims, ") +
              "and the distance in the face is larger"});
   }
+  if (d.paths.size() < d.result.shortest_paths.size()) {
+    d.warnings.push_back(
+        {"path_not_followed",
+         "a shortest path could not be followed from its start to its end; its length alone is known"});
+  }
   if (d.result.family) {
     d.warnings.push_back({"many_paths", "every direction gives a shortest path; one of them is given"});
   }
@@ -108,14 +113,31 @@ std::optional<FaceExit> FaceDistances::find_exit(const SurfacePath& path, const 
   return found;
 }
 
-FacePath FaceDistances::follow(const FacePlace& from, const FacePlace& to, const Connection& connection) const {
-  const SurfacePath path(surface(), from.uv, connection);
+// The parameters of `from` from which the connection's geodesic arrives. At a tip, where (u, v) of many u is one point,
+// it leaves along its own parameter line, that of `to`.
+std::optional<Uv> FaceDistances::start_of(const FacePlace& from, const FacePlace& to, const Connection& c) const {
+  constexpr double kArrives = 1e-9;  // of the length
+  const auto near = [&](const Xyz& a, const Xyz& b, double more) {
+    return (a - b).norm() <= more + 2.0 * std::max(rounding_at(a), rounding_at(b));
+  };
+  for (const Uv start : {from.uv, Uv{to.uv.u, from.uv.v}, Uv{from.uv.u, to.uv.v}}) {
+    if (!near(surface().position(start), surface().position(from.uv), 0.0)) continue;
+    const SurfacePath path(surface(), start, c);
+    if (near(path.at(path.length()).xyz, surface().position(to.uv), kArrives * c.length)) return start;
+  }
+  return std::nullopt;
+}
+
+FacePath FaceDistances::follow(Uv start, const FacePlace& from, const FacePlace& to, const Connection& c) const {
+  const SurfacePath path(surface(), start, c);
   FacePath found;
-  found.connection = connection;
+  found.connection = c;
+  found.start = start;
   const double deviation = std::max(kPolylineDeviation * path.length(), rounding_at(from.xyz));
   found.points = sample_path(path, [&](const auto& a, const auto& middle, const auto& b) {
     return sag_in_space(a, middle, b) <= deviation && sag_in_parameters(surface(), a, middle, b) <= deviation;
   });
+  found.connection.residual = (found.points.back().xyz - surface().position(to.uv)).norm();
   found.end_tangent = path.before(path.length()).tangent;
   found.exit = find_exit(path, from, to);
   return found;
@@ -127,10 +149,13 @@ FaceDistance FaceDistances::between(const FacePlace& from, const FacePlace& to) 
   d.to = to;
   d.result = finder_.distance(from.uv, to.uv);
   if (d.result.status != ConnectStatus::Converged) return d;
-  for (const Connection& c : d.result.shortest_paths) d.paths.push_back(follow(from, to, c));
+  for (const Connection& c : d.result.shortest_paths) {
+    if (const auto start = start_of(from, to, c)) d.paths.push_back(follow(*start, from, to, c));
+  }
   if (d.leaves_face()) {
     for (const Connection& c : d.result.candidates) {
-      if (find_exit(SurfacePath(surface(), from.uv, c), from, to)) continue;
+      const auto start = start_of(from, to, c);
+      if (!start || find_exit(SurfacePath(surface(), *start, c), from, to)) continue;
       d.stays_on_face = c.length;
       break;
     }
@@ -145,8 +170,8 @@ double FaceDistances::spline_deviation(const FacePath& path) const {
   return std::max(rounding, std::min(kOfTolerance * tolerance_, kOfLength * path.connection.length));
 }
 
-CadCurve FaceDistances::spline(const FacePlace& from, const FacePath& path, const std::string& name) const {
-  CadCurve curve = spline_of_path(SurfacePath(surface(), from.uv, path.connection), spline_deviation(path));
+CadCurve FaceDistances::spline(const FacePath& path, const std::string& name) const {
+  CadCurve curve = spline_of_path(SurfacePath(surface(), path.start, path.connection), spline_deviation(path));
   curve.name = name;
   return curve;
 }

@@ -21,7 +21,8 @@ struct FaceExit {
 };
 
 struct FacePath {
-  Connection connection;          ///< length, directions in parameters, y, residual
+  Connection connection;          ///< length, directions in parameters, y; the residual is measured at points.back()
+  Uv start;                       ///< what it was followed from: at a point with many parameters the ones it leaves by
   std::vector<PathPoint> points;  ///< both ends included, chords within kPolylineDeviation of the path
   Xyz end_tangent = Xyz::Zero();  ///< unit, pointing on along the path; that at the start is points.front().tangent
   std::optional<FaceExit> exit;
@@ -32,14 +33,14 @@ struct FacePath {
 inline constexpr double kPolylineDeviation = 1e-5;
 
 struct DistanceWarning {
-  std::string kind;  ///< "path_leaves_face", "many_paths"
+  std::string kind;  ///< "path_leaves_face", "many_paths", "path_not_followed"
   std::string text;
 };
 
 struct FaceDistance {
   FacePlace from, to;
   DistanceResult result;        ///< on the surface without its trims; usable where its status is Converged
-  std::vector<FacePath> paths;  ///< of all shortest paths; empty unless converged
+  std::vector<FacePath> paths;  ///< of all shortest paths, those that could be followed to their ends
   /// Where the shortest path leaves the face: the length of the shortest geodesic found that stays on it. The distance
   /// in the face lies between the two; nothing where no such geodesic was found.
   std::optional<double> stays_on_face;
@@ -62,7 +63,7 @@ class FaceDistances {
   FaceDistance between(const FacePlace& from, const FacePlace& to) const;
 
   /// The path as a curve in space that lies within spline_deviation() of it. REQUIRES: a length above 0.
-  CadCurve spline(const FacePlace& from, const FacePath& path, const std::string& name) const;
+  CadCurve spline(const FacePath& path, const std::string& name) const;
   double spline_deviation(const FacePath& path) const;
 
   /// The face in patches, for a picture.
@@ -74,7 +75,8 @@ class FaceDistances {
   double tolerance() const { return tolerance_; }
 
  private:
-  FacePath follow(const FacePlace& from, const FacePlace& to, const Connection& connection) const;
+  std::optional<Uv> start_of(const FacePlace& from, const FacePlace& to, const Connection& connection) const;
+  FacePath follow(Uv start, const FacePlace& from, const FacePlace& to, const Connection& connection) const;
   std::optional<FaceExit> find_exit(const SurfacePath& path, const FacePlace& from, const FacePlace& to) const;
   double outside(const FacePlace& place) const;
 

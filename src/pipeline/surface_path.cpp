@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geodesic/closed_forms.h"
+#include "surface/tangent_frame.h"
+
 namespace geovor {
 namespace {
 
@@ -38,8 +41,12 @@ void refine(const SurfacePath& path, const CloseEnough& close, const PathPoint& 
 
 }  // namespace
 
+// The angle is a direction at a pole too, where (u', v') is none.
 SurfacePath::SurfacePath(const Surface& surface, Uv from, const Connection& connection)
-    : path_(surface, from, connection.start_direction, connection.length, beyond_the_domain()) {}
+    : path_(has_closed_form(surface)
+                ? GeodesicPath(surface, from, connection.start_direction, connection.length, beyond_the_domain())
+                : GeodesicPath(surface, from, tangent_frame(surface, from).at_angle(connection.angle),
+                               connection.length, beyond_the_domain())) {}
 
 PathPoint SurfacePath::at(double s) const {
   const SpaceState state = path_.at(s);

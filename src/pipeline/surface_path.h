@@ -22,7 +22,8 @@ struct PathPiece {
   bool ends_at_break = false;
 };
 
-/// The geodesic of a connection, by arc length. REQUIRES: the surface outlives it; the connection has converged.
+/// The geodesic of a connection that starts at `from`, by arc length. REQUIRES: the surface outlives it; the connection
+/// has converged.
 class SurfacePath {
  public:
   SurfacePath(const Surface& surface, Uv from, const Connection& connection);
