@@ -10,7 +10,7 @@
 namespace geovor {
 
 std::string without_blanks(const std::string& text) {
-  const char* const kBlanks = " \t\r";
+  constexpr const char* kBlanks = " \t\r";
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);

@@ -160,7 +160,7 @@ const Surface& GeodesicIntegrator::map() const {
 
 SurfaceJet GeodesicIntegrator::refresh() {
   ++evaluations_;
-  const SurfaceJet j = piece_.jet(map(), {x_[0], x_[1]});
+  SurfaceJet j = piece_.jet(map(), {x_[0], x_[1]});
   S_ = j.S;
   Su_ = j.Su;
   Sv_ = j.Sv;

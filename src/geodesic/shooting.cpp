@@ -116,7 +116,7 @@ struct YSlope {
     const double s = shot.aim.s, ds = s - before.aim.s, turn = shot.aim.t - before.aim.t;
     const double slope = (shot.state.y - before.state.y - 0.5 * (before.state.dy + shot.state.dy) * ds) / (turn * s);
     const double noise_here = noise(before.error() + shot.error(), ds / s, turn);
-    const double error_here = noise_here + std::max(expected, std::abs(slope)) * std::abs(turn);
+    const double error_here = noise_here + std::max(expected_, std::abs(slope)) * std::abs(turn);
     if (!(error_here < error || (!learned && error_here < std::abs(slope)))) return;
     learned = true;
     error = error_here;
@@ -124,17 +124,17 @@ struct YSlope {
     value = std::abs(slope) < kNoise * noise_here ? 0.0 : slope;
   }
   void expect(double y_turn) {
-    expected = y_turn;
+    expected_ = y_turn;
     if (!learned) error = y_turn;
   }
   // After a step to a shot whose error is that of the last one.
   double error_after(const Shot& shot, Polar step) const {
-    const double size = std::max(expected, std::abs(value));
+    const double size = std::max(expected_, std::abs(value));
     return std::min(error, noise(shot.error(), step.s / shot.aim.s, step.t) + size * std::abs(step.t));
   }
 
  private:
-  double expected = 0.0;
+  double expected_ = 0.0;
 };
 
 // Of the next shot: the finest as soon as that will be the last one. Before, as loose as the miss of the next shot
