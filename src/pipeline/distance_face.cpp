@@ -45,10 +45,9 @@ double sag_in_space(const PathPoint& a, const PathPoint& middle, const PathPoint
 
 double rounding_at(const Xyz& x) { return kRounding * x.cwiseAbs().maxCoeff(); }
 
-// One question does not notice what the last digits cost.
 DistanceOptions all_digits() {
   DistanceOptions options;
-  options.connect.tolerance = 1e-14;
+  options.connect.tolerance = kAllDigits;
   return options;
 }
 

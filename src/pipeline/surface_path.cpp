@@ -20,7 +20,7 @@ PathOptions beyond_the_domain() {
   PathOptions options;
   options.trace.stop_at_domain = false;
   // Where neighbouring geodesics spread, errors grow on the way: the path is to end where it was sent.
-  options.trace.tolerance = 1e-14;
+  options.trace.tolerance = kAllDigits;
   return options;
 }
 

@@ -9,6 +9,10 @@
 
 namespace geovor {
 
+/// Tolerance of the connections and paths that are written out, of their length: rounding. One question does not notice
+/// what the last digits cost.
+inline constexpr double kAllDigits = 1e-14;
+
 struct PathPoint {
   double s = 0.0;  ///< arc length from the start
   Uv uv;           ///< runs on across seams
