@@ -1,0 +1,74 @@
+// The empty-ball test: which sites are nearer to a point than a given length, and by which geodesics.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "geodesic/distance.h"
+#include "geodesic/survey.h"
+#include "surface/tangent_frame.h"
+#include "voronoi/site_ray.h"
+#include "voronoi/site_tree.h"
+
+namespace geovor {
+
+/// Complete because a chord is no longer than a geodesic: only sites in the ball of radius `limit` about a point count,
+/// and of these every geodesic is found, by closed form, by the curvature survey (which says that there is one only),
+/// or by a search all round the site. Geodesics beyond their first conjugate point are never shortest and left out.
+///
+/// What is found out about a site is kept (mutable): one thread at a time.
+class NearbySites {
+ public:
+  /// REQUIRES: `rays`, its surface and its sites outlive the object
+  explicit NearbySites(const SiteRays& rays);
+
+  /// Every geodesic from a site to m that is shorter than `limit`, but those of `known` (same_generator), by length;
+  /// each as exact as SiteRays::to().
+  std::vector<SiteRay> nearer_than(double limit, Uv m, const std::vector<SiteRay>& known) const;
+
+  /// The shortest geodesic from any site to m, and after it those that tie with it to kTie. Empty where none can be
+  /// computed.
+  std::vector<SiteRay> nearest(Uv m) const;
+
+  /// Sites within r of x in a straight line, nearest first.
+  std::vector<int> in_ball(const Xyz& x, double r) const { return tree_.in_ball(x, r); }
+
+  /// The site nearest to a site in a straight line; -1 if it is alone.
+  int nearest_other(int site) const { return tree_.nearest(tree_.point(site), site); }
+
+  const Xyz& position(int site) const { return tree_.point(site); }
+
+  /// Whether nothing is known to be missing among the geodesics of `site` that are shorter than `limit`: false where a
+  /// part of the search all round the site was lost.
+  bool complete_to(int site, double limit) const;
+
+  static constexpr double kTie = 1e-10;
+
+ private:
+  /// Up to `certain` the curvature allows one geodesic to a point only; from `open` on it does not say so.
+  struct Knowledge {
+    double certain = 0.0, open = std::numeric_limits<double>::infinity();
+    double doubtful = std::numeric_limits<double>::infinity();  ///< from here on something may be missing
+  };
+  struct Query {
+    Uv m;
+    Xyz x;
+    double limit;
+  };
+  bool unique_to(int site, double limit) const;
+  void add(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
+  bool add_unique(const Query& q, int site, std::vector<SiteRay>& found) const;
+  void add_closed_form(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
+  void add_searched(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
+
+  const SiteRays& rays_;
+  bool closed_form_;
+  SiteTree tree_;
+  std::optional<SurfaceSurvey> survey_;
+  std::optional<DistanceFinder> finder_;
+  std::vector<TangentFrame> frames_;
+  mutable std::vector<Knowledge> known_;
+};
+
+}  // namespace geovor
