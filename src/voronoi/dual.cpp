@@ -1,49 +1,91 @@
 #include "voronoi/dual.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
 #include "geodesic/distance.h"
 #include "surface/forms.h"
+#include "voronoi/dual_checks.h"
 #include "voronoi/site_ray.h"
 
 namespace geovor {
 namespace {
 
-// Pieces of a stored path: for pictures.
+// Pieces of a drawn path.
 constexpr int kPathPieces = 16;
 
-std::string number(int i) { return std::to_string(i); }
+// A geodesic that differs from the guess by more (parts of the length, radians) may be another one.
+constexpr double kSameLength = 0.2;
+constexpr double kSameAngle = 0.3;
 
-// Where the edge is nearest to its sites the two geodesics to it run into one another: the start of the search.
-Polar guess_across(const DiagramEdge& e) {
-  const auto nearest = std::min_element(e.points.begin(), e.points.end(),
-                                        [](const auto& a, const auto& b) { return a.radius < b.radius; });
-  return {2.0 * nearest->radius, nearest->left_angle};
+// Steps from the edge to the site on its right.
+constexpr int kMarch = 8;
+
+/// Where the edge is nearest to its sites, from its stored points.
+const EdgePoint& nearest_point(const DiagramEdge& e) {
+  return *std::min_element(e.points.begin(), e.points.end(),
+                           [](const EdgePoint& a, const EdgePoint& b) { return a.radius < b.radius; });
+}
+
+// Site a, the point x and site b form a triangle with two sides of length r and the angle theta between them at x. In
+// the plane its base is 2 r sin(theta/2), and its angles at the base are (pi - theta)/2; cos(theta/2) is the slope of
+// the radius (13). Where the edge is nearest to its sites of all the bisector, theta = pi and this is no guess.
+Polar guess_across(const EdgePoint& x) {
+  const double cosine = std::min(1.0, std::abs(x.radius_slope)), half = std::acos(cosine);
+  const double turn = std::copysign(0.5 * std::numbers::pi - half, x.radius_slope * x.left_slope);
+  return {2.0 * x.radius * std::sin(half), x.left_angle - turn};
+}
+
+// The end of the geodesic from site a runs from x along the geodesic to site b, a step at a time: what joins a and b
+// then is the geodesic that passes the edge where x lies.
+std::optional<SiteRay> march(const SiteRays& rays, const DiagramEdge& e, const EdgePoint& x) {
+  auto ray = rays.at(e.left, {x.radius, x.left_angle});
+  for (int k = 1; ray && k <= kMarch; ++k) {
+    const double left = x.radius * (1.0 - static_cast<double>(k) / kMarch);
+    const auto on = k < kMarch ? rays.at(e.right, {left, x.right_angle}) : std::nullopt;
+    if (k < kMarch && !on) return std::nullopt;
+    const Uv m = on ? on->uv : rays.site(e.right);
+    ray = rays.to(e.left, m, carry(*ray, on ? on->x : rays.surface().position(m)));
+  }
+  return ray;
+}
+
+std::optional<Polar> geodesic_through(const SiteRays& rays, const DiagramEdge& e) {
+  const EdgePoint& x = nearest_point(e);
+  const Polar guess = guess_across(x);
+  if (guess.s > 0.0) {
+    const auto ray = rays.to(e.left, rays.site(e.right), guess);
+    if (ray && std::abs(ray->polar.s - guess.s) <= kSameLength * guess.s &&
+        std::abs(wrap_angle(ray->polar.t - guess.t)) <= kSameAngle) {
+      return ray->polar;
+    }
+  }
+  const auto ray = march(rays, e, x);
+  return ray ? std::optional(ray->polar) : std::nullopt;
 }
 
 // `finder` is made by the first edge that needs it: most diagrams have none.
-DualEdge join(const SiteRays& rays, const DiagramEdge& e, std::optional<DistanceFinder>& finder) {
-  DualEdge dual{e.left, e.right, 0.0, {}, {}};
-  Polar polar;
-  if (const auto ray = rays.to(e.left, rays.site(e.right), guess_across(e))) {
-    polar = ray->polar;
-  } else {
-    if (!finder) finder.emplace(rays.surface());
-    const Connection c = finder->distance(rays.site(e.left), rays.site(e.right)).shortest;
-    polar = {c.length, c.angle};
-  }
-  dual.length = polar.s;
-  const SurfaceJet j = rays.surface().jet(rays.site(e.left));
+DualEdge join(const SiteRays& rays, const VoronoiDiagram& diagram, int edge, std::optional<DistanceFinder>& finder) {
+  const DiagramEdge& e = diagram.edges[edge];
+  if (const auto polar = geodesic_through(rays, e)) return {e.left, e.right, edge, polar->s, polar->t, true, {}, {}};
+  if (!finder) finder.emplace(rays.surface());
+  const Connection c = finder->distance(rays.site(e.left), rays.site(e.right)).shortest;
+  return {e.left, e.right, edge, c.length, c.angle, false, {}, {}};
+}
+
+void draw(const SiteRays& rays, DualEdge& dual) {
   TraceOptions options;
   options.stop_at_domain = false;
-  for (const auto& state : sample_geodesic(rays.surface(), rays.site(e.left), direction_at_angle(j, polar.t), polar.s,
-                                           kPathPieces, options)) {
+  options.tolerance = kDrawnPath;
+  const UvVec direction = direction_at_angle(rays.surface().jet(rays.site(dual.a)), dual.angle);
+  for (const auto& state :
+       sample_geodesic(rays.surface(), rays.site(dual.a), direction, dual.length, kPathPieces, options)) {
     dual.path_uv.push_back(state.p);
     dual.path.push_back(rays.surface().position(state.p));
   }
-  return dual;
 }
 
 // Around a vertex inside the face the generators form a polygon; on the border it stays open, which gives the same fan.
@@ -54,38 +96,18 @@ void add_fan(const DiagramVertex& v, std::vector<std::array<int, 3>>& triangles)
   }
 }
 
-std::string why_no_triangulation(const VoronoiDiagram& diagram, const DualGraph& dual) {
-  if (diagram.sites.size() < 3) return "there are fewer than three sites";
-  for (const DiagramWarning& w : diagram.warnings) {
-    if (w.kind == "unresolved") return "a part of the diagram is unresolved";
-  }
-  for (const DiagramEdge& e : diagram.edges) {
-    if (e.kind == EdgeKind::CutLocus) return "the cell of site " + number(e.left) + " meets itself";
-    if (e.closed()) return "sites " + number(e.left) + " and " + number(e.right) + " meet in a closed edge";
-  }
-  for (const DiagramCell& cell : diagram.cells) {
-    if (cell.loops.size() != 1) return "the cell of site " + number(cell.site) + " is no disk";
-  }
-  std::set<std::pair<int, int>> pairs;
-  for (const DualEdge& e : dual.edges) {
-    const auto [lo, hi] = std::minmax(e.a, e.b);
-    if (!pairs.insert({lo, hi}).second) {
-      return "the cells of sites " + number(lo) + " and " + number(hi) + " meet more than once";
-    }
-  }
-  return dual.triangles.empty() ? "no three cells meet" : "";
-}
-
 }  // namespace
 
-DualGraph dual_of(const Surface& surface, const VoronoiDiagram& diagram) {
+DualGraph dual_of(const Surface& surface, const VoronoiDiagram& diagram, DualPaths paths) {
   std::vector<Uv> sites;
   for (const DiagramSite& s : diagram.sites) sites.push_back(s.uv);
   const SiteRays rays(surface, sites);
   DualGraph dual;
   std::optional<DistanceFinder> finder;
-  for (const DiagramEdge& e : diagram.edges) {
-    if (e.kind == EdgeKind::Bisector) dual.edges.push_back(join(rays, e, finder));
+  for (int e = 0; e < static_cast<int>(diagram.edges.size()); ++e) {
+    if (diagram.edges[e].kind != EdgeKind::Bisector) continue;
+    dual.edges.push_back(join(rays, diagram, e, finder));
+    if (paths == DualPaths::Drawn) draw(rays, dual.edges.back());
   }
   for (const DiagramVertex& v : diagram.vertices) add_fan(v, dual.triangles);
   dual.why_not = why_no_triangulation(diagram, dual);

@@ -50,6 +50,39 @@ TEST(CheckSites, RejectsNumbersThatAreNotFinite) {
   EXPECT_THROW(check_sites(face.domain(), {{std::numeric_limits<double>::quiet_NaN(), 0}}, 1e-7), SiteError);
 }
 
+// On a plane x = const all sites tie along x; of 100,000 the two faulty pairs are told apart, in time.
+TEST(CheckSites, FindsTheFirstEqualPairOfAHundredThousand) {
+  const TestFace face =
+      TestFace(std::make_shared<Plane>(Frame{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}})).rectangle(kSquare);
+  Uniform random(11);
+  std::vector<Uv> sites;
+  for (int i = 0; i < 100000; ++i) sites.push_back(random.in(kSquare));
+  const FaceDomain domain = face.domain();
+  EXPECT_NO_THROW(check_sites(domain, sites, 1e-9));
+  sites[70000] = sites[500];
+  sites[99999] = sites[20];
+  sites[99998] = sites[20];
+  try {
+    check_sites(domain, sites, 1e-9);
+    FAIL() << "no error";
+  } catch (const SiteError& e) {
+    EXPECT_EQ(e.site(), 20);
+    EXPECT_EQ(e.other(), 99998);
+  }
+}
+
+// A chain of sites each too near to the next: the one that is kept is not always the last.
+TEST(CheckSites, FindsTheFirstPairOfAChain) {
+  const TestFace face = plane_square();
+  try {
+    check_sites(face.domain(), {{0.3, 0}, {0.0, 0}, {0.2e-7, 0}, {-0.9e-7, 0}, {0.3, 1e-6}}, 1e-7);
+    FAIL() << "no error";
+  } catch (const SiteError& e) {
+    EXPECT_EQ(e.site(), 1);
+    EXPECT_EQ(e.other(), 2);
+  }
+}
+
 TEST(PlaceSites, SpreadsThemOverTheFace) {
   const TestFace face = whole(std::make_shared<WaveSurface>(UvBox{{-2, 2}, {-2, 2}}));
   const FaceDomain domain = face.domain();
