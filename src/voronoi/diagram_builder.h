@@ -11,18 +11,20 @@ namespace geovor {
 struct VoronoiOptions {
   /// How far the polylines of the edges may lie from the edges, model units; 0: kDefaultTolerance of the face's size.
   double tolerance = 0.0;
-  /// Spacing of the lattice that carries the candidates, model units; 0: chosen from the sites and the curvature.
-  double spacing = 0.0;
+  /// Whether to measure the finished diagram: areas, residuals, paths that leave the face.
+  bool measure = true;
 };
 
 /// Part of the face's diagonal in space.
 inline constexpr double kDefaultTolerance = 1e-5;
 
-/// The geodesic Voronoi diagram of the sites on the face (sections 2 and 3 of the paper), with cells, areas and
-/// residuals. Distances are those of the surface: where a shortest path leaves the face a warning says so.
+/// The geodesic Voronoi diagram of the sites on the face (sections 2 and 3 of the paper), with cells. Distances are
+/// those of the surface: where a shortest path leaves the face a warning says so.
 ///
-/// Complete by the argument of the design: a lattice that has the sites among its nodes is labelled with nearest sites,
-/// and every edge of the diagram separates two labels of the lattice, of the face's border, or of an edge found before.
+/// Complete, islands included: a shortest path from a point of a cell to its site stays in the cell, so that a cell is
+/// a star in its site's polar chart, and its border there one closed curve (which runs along both sides of a cut
+/// locus). Edges are traced from one point of each of these curves, and from every place where the nearest site changes
+/// along the border of the face; what these do not reach does not exist.
 /// What could not be resolved is named by a warning "unresolved", never left out in silence.
 /// REQUIRES: sites pass check_sites() (voronoi/sites.h).
 VoronoiDiagram build_diagram(const FaceDomain& domain, const std::vector<Uv>& sites,

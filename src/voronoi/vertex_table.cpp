@@ -1,5 +1,6 @@
-#include "voronoi/spoke_table.h"
+#include "voronoi/vertex_table.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace geovor {
@@ -15,7 +16,7 @@ bool same_ray(const SiteRay& a, const SiteRay& b) {
 
 }  // namespace
 
-int SpokeTable::add(const std::vector<SiteRay>& rays, int spokes) {
+int VertexTable::add(const std::vector<SiteRay>& rays, int spokes) {
   Vertex v;
   v.rays = rays;
   v.data.uv = domain_.to_principal(rays.front().uv);
@@ -26,11 +27,34 @@ int SpokeTable::add(const std::vector<SiteRay>& rays, int spokes) {
     v.data.angles.push_back(ray.polar.t);
   }
   v.data.spokes.resize(spokes);
+  cells_[cell_of(v.data.xyz)].push_back(count());
   vertices_.push_back(std::move(v));
   return count() - 1;
 }
 
-std::optional<int> SpokeTable::spoke_between(const Vertex& v, const SiteRay& right, const SiteRay& left) const {
+VertexTable::Cell VertexTable::cell_of(const Xyz& x) const {
+  return {std::lround(x[0] / merge_), std::lround(x[1] / merge_), std::lround(x[2] / merge_)};
+}
+
+// By number, so that the first made comes first.
+std::vector<int> VertexTable::near(const Xyz& x) const {
+  std::vector<int> found;
+  const Cell c = cell_of(x);
+  for (long i = c[0] - 1; i <= c[0] + 1; ++i) {
+    for (long j = c[1] - 1; j <= c[1] + 1; ++j) {
+      const auto first = cells_.lower_bound({i, j, c[2] - 1}), last = cells_.upper_bound({i, j, c[2] + 1});
+      for (auto cell = first; cell != last; ++cell) {
+        for (int v : cell->second) {
+          if ((vertices_[v].data.xyz - x).norm() < merge_) found.push_back(v);
+        }
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::optional<int> VertexTable::spoke_between(const Vertex& v, const SiteRay& right, const SiteRay& left) const {
   const int n = static_cast<int>(v.rays.size());
   for (int i = 0; i < static_cast<int>(v.data.spokes.size()); ++i) {
     if (same_ray(v.rays[i], right) && same_ray(v.rays[(i + 1) % n], left)) return i;
@@ -39,10 +63,10 @@ std::optional<int> SpokeTable::spoke_between(const Vertex& v, const SiteRay& rig
 }
 
 // Seen from the vertex the chain's left site is to the right.
-std::optional<SpokeRef> SpokeTable::arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last) {
-  for (int i = 0; i < count(); ++i) {
+std::optional<SpokeRef> VertexTable::arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last) {
+  for (int i : near(last.position())) {
     const Vertex& v = vertices_[i];
-    if (v.data.on_boundary || !((v.data.xyz - last.position()).norm() < merge_)) continue;
+    if (v.data.on_boundary) continue;
     if (const auto spoke = spoke_between(v, last.left, last.right)) return SpokeRef{i, *spoke};
   }
   const int made = add(generators, static_cast<int>(generators.size()));
@@ -51,22 +75,13 @@ std::optional<SpokeRef> SpokeTable::arrive_inside(const std::vector<SiteRay>& ge
   return SpokeRef{made, *spoke};
 }
 
-std::optional<SpokeRef> SpokeTable::arrive_on_border(BorderPlace place, const BisectorPoint& last) {
+std::optional<SpokeRef> VertexTable::arrive_on_border(BorderPlace place, const BisectorPoint& last) {
   return start_on_border(place, {last.right, last.left});
-}
-
-void SpokeTable::ensure_inside(const std::vector<SiteRay>& generators) {
-  const SiteRay &right = generators[0], &left = generators[1];
-  for (const Vertex& v : vertices_) {
-    if (v.data.on_boundary || !((v.data.xyz - right.x).norm() < merge_)) continue;
-    if (spoke_between(v, right, left)) return;
-  }
-  add(generators, static_cast<int>(generators.size()));
 }
 
 // Several edges may end in one point of the border: each new one must share a generator with the first or the last of
 // those that are there.
-std::optional<SpokeRef> SpokeTable::extend_border_vertex(int i, const BisectorPoint& outwards) {
+std::optional<SpokeRef> VertexTable::extend_border_vertex(int i, const BisectorPoint& outwards) {
   Vertex& v = vertices_[i];
   if (const auto spoke = spoke_between(v, outwards.right, outwards.left)) return SpokeRef{i, *spoke};
   const auto insert = [&](int at, int spoke, const SiteRay& ray) {
@@ -87,9 +102,9 @@ std::optional<SpokeRef> SpokeTable::extend_border_vertex(int i, const BisectorPo
   return std::nullopt;
 }
 
-SpokeRef SpokeTable::start_on_border(BorderPlace place, const BisectorPoint& first) {
-  for (int i = 0; i < count(); ++i) {
-    if (!vertices_[i].data.on_boundary || !((vertices_[i].data.xyz - first.position()).norm() < merge_)) continue;
+SpokeRef VertexTable::start_on_border(BorderPlace place, const BisectorPoint& first) {
+  for (int i : near(first.position())) {
+    if (!vertices_[i].data.on_boundary) continue;
     if (const auto spoke = extend_border_vertex(i, first)) return *spoke;
   }
   const int made = add({first.right, first.left}, 1);
@@ -100,9 +115,9 @@ SpokeRef SpokeTable::start_on_border(BorderPlace place, const BisectorPoint& fir
   return {made, 0};
 }
 
-SpokeRef SpokeTable::arrive_at_free_end(const BisectorPoint& last) { return {add({last.left}, 1), 0}; }
+SpokeRef VertexTable::arrive_at_free_end(const BisectorPoint& last) { return {add({last.left}, 1), 0}; }
 
-BisectorPoint SpokeTable::departure(SpokeRef s) const {
+BisectorPoint VertexTable::departure(SpokeRef s) const {
   const Vertex& v = vertices_[s.vertex];
   const int n = static_cast<int>(v.rays.size());
   return {v.rays[(s.spoke + 1) % n], v.rays[s.spoke]};

@@ -1,11 +1,14 @@
 // The vertices of a diagram while it is being built, and which of their edges are still to be traced.
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
-#include "voronoi/chain_tracer.h"
+#include "voronoi/bisector.h"
 #include "voronoi/diagram.h"
+#include "voronoi/face_border.h"
 
 namespace geovor {
 
@@ -13,23 +16,27 @@ namespace geovor {
 struct SpokeRef {
   int vertex = -1;
   int spoke = -1;
+  bool operator==(const SpokeRef& other) const { return vertex == other.vertex && spoke == other.spoke; }
+  bool operator<(const SpokeRef& other) const {
+    return vertex != other.vertex ? vertex < other.vertex : spoke < other.spoke;
+  }
 };
 
 /// Private to the room. Vertices with the rays of their generators; each spoke is open until an edge takes it.
-class SpokeTable {
+class VertexTable {
  public:
-  /// `merge`: vertices with a pair of generators in common are one if they are nearer than this.
-  SpokeTable(const FaceDomain& domain, const FaceBorder& border, double merge)
-      : domain_(domain), border_(border), merge_(merge) {}
+  /// `merge`: edges that arrive at places nearer to each other than this, between the same generators and from the same
+  /// side, have the same vertex; model units.
+  VertexTable(const FaceDomain& domain, double merge) : domain_(domain), merge_(merge) {}
 
-  /// Makes a vertex inside the face where these generators, counter-clockwise, have none yet.
-  void ensure_inside(const std::vector<SiteRay>& generators);
-
-  /// The spoke by which a chain arrives whose last point has these rays to its left and right. Makes the vertex where
-  /// there is none yet. Nothing if the vertex has no such spoke.
+  /// The spoke by which an edge arrives whose last point has these rays to its left and right. Makes the vertex, with
+  /// its generators counter-clockwise, where there is none yet. Nothing if the vertex has no such spoke.
   std::optional<SpokeRef> arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last);
   std::optional<SpokeRef> arrive_on_border(BorderPlace place, const BisectorPoint& last);
   SpokeRef arrive_at_free_end(const BisectorPoint& last);
+
+  /// A cut locus that is one point: a vertex without edges.
+  void add_point(const SiteRay& ray) { add({ray}, 0); }
 
   /// An edge that is to leave the border at this place.
   SpokeRef start_on_border(BorderPlace place, const BisectorPoint& first);
@@ -37,8 +44,10 @@ class SpokeTable {
   /// The start of the edge that leaves by the spoke.
   BisectorPoint departure(SpokeRef s) const;
 
-  bool taken(SpokeRef s) const { return vertices_[s.vertex].data.spokes[s.spoke].edge >= 0; }
+  Spoke holder(SpokeRef s) const { return vertices_[s.vertex].data.spokes[s.spoke]; }
+  bool taken(SpokeRef s) const { return holder(s).edge >= 0; }
   void take(SpokeRef s, Spoke by) { vertices_[s.vertex].data.spokes[s.spoke] = by; }
+  void release(SpokeRef s) { take(s, {}); }
 
   int count() const { return static_cast<int>(vertices_.size()); }
   const DiagramVertex& vertex(int i) const { return vertices_[i].data; }
@@ -48,14 +57,17 @@ class SpokeTable {
     DiagramVertex data;
     std::vector<SiteRay> rays;
   };
+  using Cell = std::array<long, 3>;
   int add(const std::vector<SiteRay>& rays, int spokes);
+  Cell cell_of(const Xyz& x) const;
+  std::vector<int> near(const Xyz& x) const;
   std::optional<int> spoke_between(const Vertex& vertex, const SiteRay& right, const SiteRay& left) const;
   std::optional<SpokeRef> extend_border_vertex(int vertex, const BisectorPoint& outwards);
 
   const FaceDomain& domain_;
-  const FaceBorder& border_;
   double merge_;
   std::vector<Vertex> vertices_;
+  std::map<Cell, std::vector<int>> cells_;  ///< of width merge_
 };
 
 }  // namespace geovor

@@ -1,0 +1,195 @@
+#include "voronoi/border_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geovor {
+namespace {
+
+// Steps along the border as parts of the distance to the owner, or of the owner's distance to its nearest neighbour:
+// within half of that there is no other's cell.
+constexpr double kStep = 0.5;
+constexpr double kStepNearSite = 0.2;
+
+// How often a step is halved where a third generator may own a piece between two labels.
+constexpr int kDeepestSplit = 6;
+
+// Changes between two labels: each adds one that was not known; more than this many are noise.
+constexpr int kMostChanges = 24;
+
+// Bisections and false-position steps of one root together.
+constexpr int kMostRootSteps = 100;
+
+// A root is one where the two distances agree to this part; differences cancel most of the noise of one distance.
+constexpr double kRoot = 1e-13;
+
+// Distances below this part of the radius are one.
+constexpr double kTie = 1e-10;
+
+/// The generators that can own a place, or something near it, by length.
+struct Label {
+  double at = 0.0;
+  std::vector<SiteRay> candidates;
+  const SiteRay& owner() const { return candidates.front(); }
+};
+
+/// Smallest value, at sampled interior points, of the cubic with values g0, g1 and slopes s0, s1 at the ends of a step
+/// h.
+double cubic_minimum(double g0, double s0, double g1, double s1, double h) {
+  constexpr int kSamples = 8;
+  double least = std::min(g0, g1);
+  for (int i = 1; i < kSamples; ++i) {
+    const double t = static_cast<double>(i) / kSamples, r = 1.0 - t;
+    const double value = r * r * (1 + 2 * t) * g0 + t * t * (3 - 2 * t) * g1 + h * t * r * (r * s0 - t * s1);
+    least = std::min(least, value);
+  }
+  return least;
+}
+
+class CycleScan {
+ public:
+  CycleScan(const FaceBorder& border, int cycle, const SiteRays& rays, const NearbySites& sites)
+      : border_(border), cycle_(cycle), end_(border.segment_count(cycle)), rays_(rays), sites_(sites) {}
+
+  std::vector<LabelChange> run() {
+    Label last = label(0.0, 0.0);
+    const Label first = last;
+    while (last.at < end_) {
+      const double step = step_from(last);
+      const double at = next_place(last.at, step);
+      Label here = label(at, step);
+      if (at >= end_) here.at = end_;
+      if (!last.candidates.empty() && !here.candidates.empty()) between(last, here, step, 0);
+      last = std::move(here);
+    }
+    return std::move(changes_);
+  }
+
+ private:
+  Uv uv(double at) const { return border_.uv({cycle_, at < end_ ? at : 0.0}); }
+
+  Label label(double at, double reach) const {
+    Label l{at, sites_.nearest(uv(at))};
+    if (l.candidates.empty() || !(reach > 0.0)) return l;
+    const auto more = sites_.nearer_than(l.owner().polar.s + 2.0 * reach, uv(at), l.candidates);
+    l.candidates.insert(l.candidates.end(), more.begin(), more.end());
+    return l;
+  }
+
+  /// Length in space.
+  double step_from(const Label& l) const {
+    if (l.candidates.empty()) return 0.0;
+    const int site = l.owner().site, other = sites_.nearest_other(site);
+    const auto place = [&](int i) { return rays_.surface().position(rays_.site(i)); };
+    const double apart = other < 0 ? 0.0 : (place(other) - place(site)).norm();
+    return std::max(kStep * l.owner().polar.s, kStepNearSite * apart);
+  }
+
+  /// As far along the border, never beyond a corner where steps are longer than segments are: those that bend are
+  /// short.
+  double next_place(double at, double step) const {
+    double left = step;
+    for (double k = std::floor(at); k < end_; k += 1.0) {
+      const double length = border_.segment_length(cycle_, static_cast<int>(k));
+      const double from = std::max(at, k) - k, rest = (1.0 - from) * length;
+      if (rest > left && length > 0.0) return left > 0.0 ? k + from + left / length : k + 1.0;
+      left -= rest;
+    }
+    return end_;
+  }
+
+  void between(const Label& from, const Label& to, double step, int depth) {
+    if (depth < kDeepestSplit && may_hide(from, to)) {
+      const Label middle = label(0.5 * (from.at + to.at), 0.5 * step);
+      if (!middle.candidates.empty()) {
+        between(from, middle, 0.5 * step, depth + 1);
+        between(middle, to, 0.5 * step, depth + 1);
+        return;
+      }
+    }
+    collect(from.at, from.owner(), to.at, to.owner(), 0);
+  }
+
+  /// Whether a generator that is nearest at neither place may be nearest in between.
+  static bool may_hide(const Label& from, const Label& to) {
+    const SiteRay &a = from.owner(), &b = to.owner();
+    const Xyz way = b.x - a.x;
+    const double h = way.norm();
+    for (const SiteRay& c : from.candidates) {
+      for (const SiteRay& d : to.candidates) {
+        if (c.site != d.site || c.site == a.site || d.site == b.site) continue;
+        const double falls = (c.T - a.T).dot(way) / h, rises = (d.T - b.T).dot(way) / h;
+        if (cubic_minimum(c.polar.s - a.polar.s, falls, d.polar.s - b.polar.s, rises, h) < 0.0) return true;
+      }
+    }
+    return false;
+  }
+
+  /// The generator's ray to another place.
+  std::optional<SiteRay> follow(const SiteRay& ray, double at) const {
+    return rays_.to(ray.site, uv(at), carry(ray, rays_.surface().position(uv(at))));
+  }
+
+  void collect(double lo, const SiteRay& a, double hi, const SiteRay& b, int depth) {
+    const auto a_there = follow(a, hi), b_here = follow(b, lo);
+    if (a_there && same_generator(*a_there, b)) return;
+    if (!a_there || !b_here || depth > kMostChanges) return;
+    const auto change = root(lo, a, *b_here, hi, *a_there, b);
+    if (!change) return;
+    const double radius = change->before.polar.s, at = change->place.parameter;
+    const auto nearer = sites_.nearer_than(radius * (1.0 - kTie), uv(at), {change->before, change->after});
+    if (nearer.empty()) {
+      changes_.push_back(*change);
+      if (at >= end_) changes_.back().place.parameter = 0.0;
+      return;
+    }
+    collect(lo, a, at, nearer.front(), depth + 1);
+    collect(at, nearer.front(), hi, b, depth + 1);
+  }
+
+  /// Root of d_a - d_b on [lo, hi] by the Illinois variant of false position, which needs no derivative and so does not
+  /// mind the corners of the border.
+  std::optional<LabelChange> root(double lo, const SiteRay& a_lo, const SiteRay& b_lo, double hi, const SiteRay& a_hi,
+                                  const SiteRay& b_hi) const {
+    double f_lo = a_lo.polar.s - b_lo.polar.s, f_hi = a_hi.polar.s - b_hi.polar.s;
+    const auto is_root = [](double f, const SiteRay& ray) { return std::abs(f) <= kRoot * ray.polar.s; };
+    if (is_root(f_lo, a_lo)) return LabelChange{{cycle_, lo}, a_lo, b_lo};
+    if (is_root(f_hi, a_hi)) return LabelChange{{cycle_, hi}, a_hi, b_hi};
+    if (!(f_lo < 0.0 && f_hi > 0.0)) return std::nullopt;
+    SiteRay a = a_lo, b = b_lo;
+    double k = lo;
+    int last_side = 0;
+    for (int i = 0; i < kMostRootSteps; ++i) {
+      k = (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
+      if (!(k > lo && k < hi)) k = 0.5 * (lo + hi);
+      const auto next_a = follow(a, k), next_b = follow(b, k);
+      if (!next_a || !next_b) return std::nullopt;
+      a = *next_a, b = *next_b;
+      const double f = a.polar.s - b.polar.s;
+      if (is_root(f, a) || k == lo || k == hi) break;
+      const int side = f < 0.0 ? -1 : 1;
+      (side < 0 ? lo : hi) = k;
+      (side < 0 ? f_lo : f_hi) = f;
+      if (side == last_side) (side < 0 ? f_hi : f_lo) *= 0.5;
+      last_side = side;
+    }
+    return LabelChange{{cycle_, k}, a, b};
+  }
+
+  const FaceBorder& border_;
+  int cycle_;
+  double end_;
+  const SiteRays& rays_;
+  const NearbySites& sites_;
+  std::vector<LabelChange> changes_;
+};
+
+}  // namespace
+
+std::vector<LabelChange> scan_border(const FaceBorder& border, int cycle, const SiteRays& rays,
+                                     const NearbySites& sites) {
+  return CycleScan(border, cycle, rays, sites).run();
+}
+
+}  // namespace geovor

@@ -1,0 +1,399 @@
+#include "voronoi/edge_tracer.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "surface/forms.h"
+#include "voronoi/foresight.h"
+#include "voronoi/free_end.h"
+#include "voronoi/vertex_solver.h"
+
+namespace geovor {
+namespace {
+
+// Steps, and the way on which a vertex is foreseen, as parts of the radius: over more of it the plane is no guide.
+constexpr double kLongestStep = 0.5;
+constexpr double kFirstStep = 0.1;
+constexpr double kForesight = 2.0;
+
+// Below this part of the longest step the tracer is stuck.
+constexpr double kShortestStep = 1e-7;
+
+// A step may turn the edge by this much (radians), and swing the rays from the sites by that much, which is far where
+// they spread little: behind bumps, near the sites. A piece up to a foreseen vertex has no swing to heed.
+constexpr double kMostTurn = 0.25;
+constexpr double kMostSwing = 0.35;
+constexpr double kMostTurnToVertex = 0.6;
+
+// A step that turns the edge by less than this may be followed by one twice as long.
+constexpr double kLittleTurn = 0.1;
+
+// A step brings the two rays of a cut locus nearer to each other by this part of what is between them.
+constexpr double kApproach = 0.3;
+
+// With less than this between the rays of a cut locus (radians) its conjugate point is as near as the square of it, in
+// curvature radii, and the rest of the way is straight.
+constexpr double kOneGeodesic = 0.02;
+
+// See EdgeTracer::predict.
+constexpr double kSmallCorrection = 0.3;
+
+// An edge of more steps than this goes round and round.
+constexpr int kMostSteps = 20000;
+
+// Part of the first chord of an edge that starts on the border in which the start itself would be met.
+constexpr double kOffBorder = 1e-3;
+
+// How often a chord near the border is halved: to a thousandth.
+constexpr int kDeepest = 10;
+
+// Chords are shorter than the way, and the border is measured to first order only.
+constexpr double kBorderMargin = 2.0;
+
+constexpr int kBorderIterations = 30;
+constexpr int kMostRivalsInTurn = 24;
+
+// Two points nearer than this part of the radius have nothing between them.
+constexpr double kNoRoom = 1e-6;
+
+// Beside the start, as a part of the step, and onto it, as a part of the radius.
+constexpr double kBeside = 0.3;
+constexpr double kBackAtStart = 1e-9;
+
+// A dense edge has no more points than two to this power between two traced ones.
+constexpr int kMostHalvings = 12;
+
+double chord(const BisectorPoint& a, const BisectorPoint& b) { return (b.position() - a.position()).norm(); }
+
+double turn(const BisectorPoint& a, const BisectorPoint& b) {
+  const Xyz s = a.tangent(), t = b.tangent();
+  return std::atan2(s.cross(t).norm(), s.dot(t));
+}
+
+bool is_free_end(const BisectorPoint& m) {
+  return m.left.site == m.right.site && m.left.polar.t == m.right.polar.t;
+}
+
+/// How far the chord is from the edge: that of a circle.
+double sag_of(const BisectorPoint& a, const BisectorPoint& b) {
+  return is_free_end(a) || is_free_end(b) ? 0.0 : chord(a, b) * turn(a, b) / 8.0;
+}
+
+/// Cubic through (0, f0, d0) and (h0, f1, d1), continued to h0 + h.
+double extrapolate(double f0, double d0, double f1, double d1, double h0, double h) {
+  const double t = 1.0 + h / h0, r = 1.0 - t;
+  return r * r * (1 + 2 * t) * f0 + t * t * (3 - 2 * t) * f1 + h0 * t * r * (r * d0 - t * d1);
+}
+
+/// Where a ray's angle gets to when its end moves by `step`, as if the surface beyond were a plane.
+double turned(const SiteRay& ray, const Xyz& step) {
+  return ray.polar.t + ray.polar.s / ray.y * std::atan2(ray.N.dot(step), ray.polar.s + ray.T.dot(step));
+}
+
+bool near_conjugate_point(const BisectorPoint& m) {
+  return m.left.site == m.right.site && std::abs(wrap_angle(m.left.polar.t - m.right.polar.t)) < kOneGeodesic;
+}
+
+}  // namespace
+
+void sort_around(std::vector<SiteRay>& g) {
+  const Xyz first = -g.front().T, n = g.front().T.cross(g.front().N);
+  const auto angle = [&](const SiteRay& ray) { return turn_between(first, -ray.T, n); };
+  std::stable_sort(g.begin() + 1, g.end(), [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
+}
+
+/// An edge on its way.
+struct EdgeTracer::Walk {
+  TracedEdge edge;
+  double step = 0.0;
+  bool starts_on_border = false;
+  const BisectorPoint& current() const { return edge.points.back(); }
+  /// Part of the next chord in which the border is not looked for.
+  double skip() const { return starts_on_border && edge.points.size() == 1 ? kOffBorder : 0.0; }
+};
+
+double EdgeTracer::longest_step(const BisectorPoint& m) const {
+  const BisectorSlope slope = bisector_slope(m);
+  double h = kLongestStep * m.radius();
+  h = std::min(h, kMostSwing / std::max(std::abs(slope.left_angle), std::abs(slope.right_angle)));
+  if (m.left.site == m.right.site) {
+    const double between = std::abs(wrap_angle(m.left.polar.t - m.right.polar.t));
+    h = std::min(h, kApproach * between / std::abs(slope.left_angle - slope.right_angle));
+  }
+  return h;
+}
+
+TracedEdge EdgeTracer::trace(const BisectorPoint& start, bool on_border) const {
+  Walk walk;
+  walk.edge.points = {start};
+  walk.starts_on_border = on_border;
+  walk.step = kFirstStep * start.radius();
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Step outcome = advance(walk);
+    if (outcome == Step::Ended) break;
+    if (outcome == Step::Failed) walk.step *= 0.5;
+    if (!(walk.step > kShortestStep * longest_step(walk.current()))) break;
+  }
+  return walk.edge;
+}
+
+EdgeTracer::Step EdgeTracer::advance(Walk& walk) const {
+  const BisectorPoint cur = walk.current();
+  if (near_conjugate_point(cur) && end_freely(walk)) return Step::Ended;
+  walk.step = std::min(walk.step, longest_step(cur));
+  const double h = walk.step;
+  if (!(h > 0.0)) return Step::Failed;
+  if (close(walk, h)) return Step::Ended;
+  if (const auto vertex = foreseen_vertex(cur, kForesight * cur.radius())) {
+    const Step outcome = take_vertex(walk, *vertex);
+    if (outcome != Step::Failed) return outcome;
+  }
+  const auto next = predict(walk, h);
+  if (!next || chord(cur, *next) > 1.5 * h) return Step::Failed;
+  const double bend = turn(cur, *next);
+  if (!(bend < kMostTurn)) return Step::Failed;
+  const auto nearer = sites_.nearer_than(next->radius() * (1.0 - kOneVertex), next->left.uv, {next->left, next->right});
+  if (!nearer.empty()) {
+    const auto vertex = find_vertex(cur, *next, nearer.front(), 1.5 * h);
+    return vertex ? take_vertex(walk, *vertex) : Step::Failed;
+  }
+  const Step outcome = take_point(walk, *next);
+  if (outcome == Step::Going && bend < kLittleTurn) walk.step = 2.0 * h;
+  return outcome;
+}
+
+std::optional<BisectorPoint> EdgeTracer::predict(const Walk& walk, double h) const {
+  const BisectorPoint& cur = walk.current();
+  const BisectorSlope d = bisector_slope(cur);
+  BisectorCoordinates guess = {cur.radius() + h * d.radius, cur.left.polar.t + h * d.left_angle,
+                               cur.right.polar.t + h * d.right_angle};
+  if (walk.edge.points.size() > 1) {
+    const BisectorPoint& prev = walk.edge.points[walk.edge.points.size() - 2];
+    const BisectorSlope e = bisector_slope(prev);
+    const double h0 = chord(prev, cur);
+    // The cubic through the last two points is a better guess only where it is a small correction of the straight one.
+    const auto improve = [&](double& g, double f0, double d0, double f1, double d1) {
+      const double cubic = extrapolate(f0, d0, f1, d1, h0, h);
+      if (std::abs(cubic - g) < kSmallCorrection * h * std::abs(d1)) g = cubic;
+    };
+    improve(guess.radius, prev.radius(), e.radius, cur.radius(), d.radius);
+    improve(guess.left_angle, prev.left.polar.t, e.left_angle, cur.left.polar.t, d.left_angle);
+    improve(guess.right_angle, prev.right.polar.t, e.right_angle, cur.right.polar.t, d.right_angle);
+  }
+  const Xyz tangent = cur.tangent();
+  return correct_bisector(rays_, cur.left.site, cur.right.site, guess, {tangent, tangent.dot(cur.position()) + h});
+}
+
+// The cubic that has the slopes of system (13) at both ends, half way between them.
+std::optional<BisectorPoint> EdgeTracer::halfway(const BisectorPoint& a, const BisectorPoint& b) const {
+  const Xyz way = b.position() - a.position();
+  const double h = way.norm();
+  const BisectorSlope d = bisector_slope(a), e = bisector_slope(b);
+  const auto middle = [h](double f0, double d0, double change, double d1) {
+    return f0 + 0.5 * change + h / 8.0 * (d0 - d1);
+  };
+  const BisectorCoordinates guess = {
+      middle(a.radius(), d.radius, b.radius() - a.radius(), e.radius),
+      middle(a.left.polar.t, d.left_angle, wrap_angle(b.left.polar.t - a.left.polar.t), e.left_angle),
+      middle(a.right.polar.t, d.right_angle, wrap_angle(b.right.polar.t - a.right.polar.t), e.right_angle)};
+  const Xyz normal = way / h;
+  const auto m = correct_bisector(rays_, a.left.site, a.right.site, guess,
+                                  {normal, normal.dot(0.5 * (a.position() + b.position()))});
+  if (!m || chord(a, *m) > h || chord(*m, b) > h) return std::nullopt;
+  return m;
+}
+
+// The sites' own rays turn about their ends as in the plane; the third site's ray is aimed along the straight line.
+std::optional<EdgeTracer::Vertex> EdgeTracer::foreseen_vertex(const BisectorPoint& from, double reach) const {
+  const auto seen = foresee(sites_, rays_, from, reach);
+  if (!seen) return std::nullopt;
+  const Xyz step = seen->way * from.tangent();
+  const SurfaceJet j = rays_.surface().jet(from.left.uv);
+  const Uv place = from.left.uv + tangent_components(j, step);
+  const auto rival = rays_.roughly_to(seen->site, place);
+  if (!rival) return std::nullopt;
+  BisectorPoint guess = from;
+  for (SiteRay* ray : {&guess.left, &guess.right}) {
+    ray->polar.t = turned(*ray, step);
+    ray->polar.s = (ray->polar.s * ray->T + step).norm();
+  }
+  const auto vertex = find_vertex(from, guess, *rival, 1.5 * seen->way);
+  if (!vertex || !(turn(from, vertex->point) < kMostTurnToVertex)) return std::nullopt;
+  return vertex;
+}
+
+// The vertex with the rival that was noticed first needn't be the first vertex on the way: as long as some other
+// generator is nearer there, that one takes the rival's place.
+std::optional<EdgeTracer::Vertex> EdgeTracer::find_vertex(const BisectorPoint& from, const BisectorPoint& guess,
+                                                          SiteRay rival, double reach) const {
+  BisectorCoordinates c = coordinates(guess);
+  for (int i = 0; i < kMostRivalsInTurn; ++i) {
+    const auto solved = solve_vertex(
+        rays_,
+        {{{from.left.site, c.left_angle}, {from.right.site, c.right_angle}, {rival.site, rival.polar.t}}}, c.radius);
+    if (!solved) return std::nullopt;
+    const auto& r = *solved;
+    const Xyz way = r[0].x - from.position();
+    if (!(from.tangent().dot(way) > kOneVertex * c.radius) || way.norm() > reach) return std::nullopt;
+    if (same_generator(r[0], r[1]) || same_generator(r[0], r[2]) || same_generator(r[1], r[2])) return std::nullopt;
+    const double radius = r[0].polar.s;
+    const auto nearer = sites_.nearer_than(radius * (1.0 + kOneVertex), r[0].uv, {r[0], r[1], r[2]});
+    if (nearer.empty() || nearer.front().polar.s >= radius * (1.0 - kOneVertex)) {
+      Vertex vertex{{r.begin(), r.end()}, {r[0], r[1]}};
+      vertex.generators.insert(vertex.generators.end(), nearer.begin(), nearer.end());
+      sort_around(vertex.generators);
+      return vertex;
+    }
+    rival = nearer.front();
+    c = {radius, r[0].polar.t, r[1].polar.t};
+  }
+  return std::nullopt;
+}
+
+// A generator that is nearer half way to the vertex cuts the edge before.
+EdgeTracer::Step EdgeTracer::take_vertex(Walk& walk, const Vertex& found) const {
+  const BisectorPoint cur = walk.current();
+  Vertex vertex = found;
+  for (int i = 0; i < kMostRivalsInTurn; ++i) {
+    const double way = chord(cur, vertex.point);
+    std::optional<BisectorPoint> middle;
+    if (way > kNoRoom * cur.radius()) {
+      middle = halfway(cur, vertex.point);
+      if (!middle) return Step::Failed;
+      const auto nearer =
+          sites_.nearer_than(middle->radius() * (1.0 - kOneVertex), middle->left.uv, {middle->left, middle->right});
+      if (!nearer.empty()) {
+        const auto before = find_vertex(cur, *middle, nearer.front(), way);
+        if (!before) return Step::Failed;
+        vertex = *before;
+        continue;
+      }
+      const Step outcome = take_point(walk, *middle);
+      if (outcome != Step::Going) return outcome;
+    }
+    const Step outcome = take_point(walk, vertex.point);
+    if (outcome == Step::Failed && middle) walk.edge.points.pop_back();
+    if (outcome != Step::Going) return outcome;
+    walk.edge.generators = vertex.generators;
+    walk.edge.end = TraceEnd::Vertex;
+    return Step::Ended;
+  }
+  return Step::Failed;
+}
+
+EdgeTracer::Step EdgeTracer::take_point(Walk& walk, const BisectorPoint& next) const {
+  if (leaves_face(walk.current(), next, walk.skip(), 0)) return end_on_border(walk, next) ? Step::Ended : Step::Failed;
+  walk.edge.points.push_back(next);
+  return Step::Going;
+}
+
+// The way to `next` passes by the start, whose section plane is then a better one to step into than any other.
+bool EdgeTracer::close(Walk& walk, double h) const {
+  if (walk.edge.points.size() < 3) return false;
+  const BisectorPoint &start = walk.edge.points.front(), &cur = walk.current();
+  const Xyz to_start = start.position() - cur.position();
+  const double ahead = cur.tangent().dot(to_start);
+  if (!(ahead > 0.0 && ahead < 1.5 * h) || to_start.norm() > (1.0 + kBeside) * ahead) return false;
+  if (!(start.tangent().dot(cur.tangent()) > 0.0)) return false;
+  const BisectorCoordinates guess = {start.radius(), start.left.polar.t, start.right.polar.t};
+  const BisectorSlope d = bisector_slope(cur);
+  const auto same = [&](const SiteRay& a, const SiteRay& b, double slope) {
+    return std::abs(wrap_angle(a.polar.t + ahead * slope - b.polar.t) * b.y) < kBeside * ahead;
+  };
+  if (!same(cur.left, start.left, d.left_angle) || !same(cur.right, start.right, d.right_angle)) return false;
+  const Xyz normal = start.tangent();
+  const auto back = correct_bisector(rays_, start.left.site, start.right.site, guess,
+                                     {normal, normal.dot(start.position())});
+  if (!back || chord(*back, start) > kBackAtStart * start.radius()) return false;
+  walk.edge.points.push_back(start);
+  walk.edge.end = TraceEnd::Closed;
+  return true;
+}
+
+bool EdgeTracer::end_freely(Walk& walk) const {
+  const BisectorPoint& cur = walk.current();
+  const auto end = free_end(rays_, cur.left, cur.right);
+  if (!end) return false;
+  walk.edge.points.push_back({*end, *end});
+  walk.edge.end = TraceEnd::FreeEnd;
+  return true;
+}
+
+// Near the border a chord is halved until it lies as near to the edge as the border's own chords to the border.
+std::optional<EdgeTracer::Crossing> EdgeTracer::leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip,
+                                                            int depth) const {
+  if (border_.cycle_count() == 0) return std::nullopt;
+  const Uv from = domain_.to_principal(a.left.uv);
+  const double reach = kBorderMargin * chord(a, b);
+  if (depth == 0 && domain_.contains(from) && domain_.distance_to_border(from) > reach) return std::nullopt;
+  if (depth < kDeepest && sag_of(a, b) > sag_) {
+    if (const auto middle = halfway(a, b)) {
+      if (const auto first = leaves_face(a, *middle, 2.0 * skip, depth + 1)) return first;
+      return leaves_face(*middle, b, 0.0, depth + 1);
+    }
+  }
+  const Uv to = from + nearest_copy(rays_.surface(), a.left.uv, b.left.uv);
+  if (const auto crossing = border_.first_crossing(from, to, skip)) return Crossing{a, b, *crossing};
+  if (domain_.contains(to)) return std::nullopt;
+  const auto place = border_.nearest(to);
+  if (!place) return std::nullopt;
+  return Crossing{a, b, {*place, 1.0}};
+}
+
+bool EdgeTracer::end_on_border(Walk& walk, const BisectorPoint& next) const {
+  const auto crossing = leaves_face(walk.current(), next, walk.skip(), 0);
+  BorderPlace place = crossing->at.place;
+  const BisectorPoint& near = crossing->at.fraction < 0.5 ? crossing->from : crossing->to;
+  const auto point = border_point(near, place);
+  if (!point || chord(walk.current(), *point) > 2.0 * chord(walk.current(), next)) return false;
+  const auto nearer =
+      sites_.nearer_than(point->radius() * (1.0 - kOneVertex), point->left.uv, {point->left, point->right});
+  if (!nearer.empty()) return false;
+  walk.edge.points.push_back(*point);
+  walk.edge.place = place;
+  walk.edge.end = TraceEnd::Border;
+  return true;
+}
+
+// Newton's method for d_left = d_right along the border.
+std::optional<BisectorPoint> EdgeTracer::border_point(const BisectorPoint& near, BorderPlace& place) const {
+  BisectorPoint m = near;
+  const double n = border_.segment_count(place.cycle);
+  for (int i = 0; i < kBorderIterations; ++i) {
+    const Uv uv = border_.uv(place);
+    const SurfaceJet j = rays_.surface().jet(uv);
+    const auto left = rays_.to(m.left.site, uv, carry(m.left, j.S));
+    const auto right = rays_.to(m.right.site, uv, carry(m.right, j.S));
+    if (!left || !right) return std::nullopt;
+    m = {*left, *right};
+    const double f = left->polar.s - right->polar.s;
+    if (std::abs(f) <= kBisectorTolerance * m.radius()) return m;
+    const double slope = (left->T - right->T).dot(push_forward(j, border_.direction(place)));
+    const double step = -f / slope;
+    if (!std::isfinite(step)) return std::nullopt;
+    place.parameter += std::clamp(step, -0.5 * n, 0.5 * n);
+    place.parameter -= n * std::floor(place.parameter / n);
+  }
+  return std::nullopt;
+}
+
+std::vector<BisectorPoint> EdgeTracer::dense(const std::vector<BisectorPoint>& points, double sag) const {
+  std::vector<BisectorPoint> out = {points.front()};
+  const auto fill = [&](const auto& self, const BisectorPoint& b, int halvings) -> void {
+    const BisectorPoint a = out.back();
+    if (halvings > 0 && sag_of(a, b) > sag) {
+      if (const auto middle = halfway(a, b)) {
+        self(self, *middle, halvings - 1);
+        self(self, b, halvings - 1);
+        return;
+      }
+    }
+    out.push_back(b);
+  };
+  for (size_t i = 1; i < points.size(); ++i) fill(fill, points[i], kMostHalvings);
+  return out;
+}
+
+}  // namespace geovor
