@@ -1,0 +1,317 @@
+#include "voronoi/certificate.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+
+#include "voronoi/cell_charts.h"
+#include "voronoi/diagram_topology.h"
+#include "voronoi/site_ray.h"
+
+namespace geovor {
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// The stored place of a point and the ends of its rays, relative to the radius: what their angles leave open.
+constexpr double kSamePlace = 1e-9;
+
+// The ends predicted for the middle of two stored points lie this near to each other, relative to the radius. Two
+// branches would be apart by their own width.
+constexpr double kNoJump = 1e-3;
+
+// Angles of the walk around a cell are sums of differences, each good to what kSamePlace says.
+constexpr double kOneTurn = 1e-6;
+
+// Steps clockwise, and jumps where one piece of a cell's border follows another, in space, relative to the radius. The
+// ends of cut loci are known to the square root of a length's rounding.
+constexpr double kNoStepBack = 1e-9;
+constexpr double kCornersMeet = 1e-7;
+
+// The Jacobi field along cells' borders, relative to the radius: more than rounding.
+constexpr double kPositive = 1e-9;
+
+using Offender = CertificateClaim::Offender;
+
+/// Collects measured values; keeps the largest, and the first that breaks the bound.
+class Claim {
+ public:
+  Claim(const char* name, const char* statement, double bound) {
+    claim_.name = name, claim_.statement = statement, claim_.bound = bound;
+    claim_.holds = true;
+    claim_.measured = -std::numeric_limits<double>::infinity();
+  }
+
+  void measure(double value, Offender kind, int id, Uv uv, const char* why) {
+    if (!(value <= claim_.measured)) claim_.measured = value;
+    if (value <= claim_.bound || !claim_.holds) return;
+    claim_.holds = false;
+    claim_.offender = kind, claim_.id = id, claim_.uv = uv, claim_.why = why;
+  }
+
+  CertificateClaim done() {
+    if (std::isinf(claim_.measured) && claim_.holds) claim_.measured = std::min(0.0, claim_.bound);  // nothing to check
+    return claim_;
+  }
+
+ private:
+  CertificateClaim claim_;
+};
+
+class Examiner {
+ public:
+  Examiner(const FaceDomain& domain, const VoronoiDiagram& diagram, const Area& face_area)
+      : domain_(domain), d_(diagram), face_area_(face_area) {}
+
+  Certificate examine();
+
+ private:
+  CertificateClaim topology() const;
+  CertificateClaim radial_lengths() const;
+  CertificateClaim places() const;
+  CertificateClaim smoothness() const;
+  CertificateClaim sectors() const;
+  CertificateClaim stars() const;
+  CertificateClaim turns() const;
+  CertificateClaim regularity() const;
+  CertificateClaim areas() const;
+  void trace_vertices();
+  double missing_turn(int cell) const;
+  double flattening_slack() const;
+  std::string summary(const Certificate& certificate) const;
+  Uv site(int cell) const { return d_.sites[cell].uv; }
+
+  const FaceDomain& domain_;
+  const VoronoiDiagram& d_;
+  Area face_area_;
+  DiagramCharts charts_;
+  std::vector<std::vector<RayEnd>> at_vertices_;
+};
+
+void Examiner::trace_vertices() {
+  for (const DiagramVertex& v : d_.vertices) {
+    at_vertices_.emplace_back();
+    for (std::size_t i = 0; i < v.sites.size(); ++i)
+      at_vertices_.back().push_back(trace_ray(domain_.surface(), site(v.sites[i]), {v.radius, v.angles[i]}));
+  }
+}
+
+CertificateClaim Examiner::topology() const {
+  Claim claim("topology", "every edge is walked once in each direction, loops close, vertices and edges agree", 0.0);
+  if (const auto fault = first_topology_fault(d_)) {
+    CertificateClaim broken = claim.done();
+    broken.holds = false, broken.measured = 1.0, broken.why = fault->text;
+    broken.offender = fault->vertex >= 0 ? Offender::Vertex
+                      : fault->edge >= 0 ? Offender::Edge
+                      : fault->cell >= 0 ? Offender::Cell
+                                         : Offender::Diagram;
+    broken.id = std::max({fault->vertex, fault->edge, fault->cell});
+    return broken;
+  }
+  return claim.done();
+}
+
+/// The spread of the radial lengths at a vertex, relative to the radius.
+double spread_at(const DiagramVertex& v, const std::vector<RayEnd>& rays) {
+  double lo = v.radius, hi = v.radius;
+  for (const RayEnd& ray : rays) {
+    const double length = ray.found ? distance_beside(ray, v.xyz) : std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(length)) return std::numeric_limits<double>::infinity();
+    lo = std::min(lo, length), hi = std::max(hi, length);
+  }
+  return std::max(0.0, hi - lo - kCoordinateRounding * v.xyz.lpNorm<Eigen::Infinity>()) / v.radius;
+}
+
+CertificateClaim Examiner::radial_lengths() const {
+  Claim claim("radial lengths",
+              "the lengths of the rays from both sides agree at every point of the edges, at a place between two of "
+              "them, and at the vertices (relative; rays traced anew)",
+              kEquidistance);
+  for (std::size_t i = 0; i < d_.vertices.size(); ++i) {
+    const DiagramVertex& v = d_.vertices[i];
+    claim.measure(spread_at(v, at_vertices_[i]), Offender::Vertex, static_cast<int>(i), v.uv,
+                  "the lengths of the rays to the vertex differ");
+  }
+  for (std::size_t i = 0; i < charts_.edges.size(); ++i) {
+    const EdgeWalk& walk = charts_.edges[i];
+    claim.measure(walk.radial_gap, Offender::Edge, static_cast<int>(i), walk.worst,
+                  "the lengths of the rays to a point of the edge differ");
+    claim.measure(walk.gap_between, Offender::Edge, static_cast<int>(i), walk.worst,
+                  "the lengths of the rays to a place between two points differ");
+  }
+  return claim.done();
+}
+
+CertificateClaim Examiner::places() const {
+  Claim claim("places", "the rays from both sides end at the stored points (relative to the radius)", kSamePlace);
+  for (std::size_t i = 0; i < charts_.edges.size(); ++i) {
+    const EdgeWalk& walk = charts_.edges[i];
+    const bool followed = walk.seen[0].found && walk.seen[1].found;
+    claim.measure(followed ? walk.place_gap : std::numeric_limits<double>::infinity(), Offender::Edge,
+                  static_cast<int>(i), walk.worst,
+                  followed ? "a ray ends beside its point" : "a ray to the edge can't be followed");
+  }
+  return claim.done();
+}
+
+CertificateClaim Examiner::smoothness() const {
+  Claim claim("smooth edges",
+              "between two stored points the rays predicted by the system (13) from both ends meet (relative to the "
+              "radius), and the left site is to the left",
+              kNoJump);
+  for (std::size_t i = 0; i < charts_.edges.size(); ++i) {
+    const EdgeWalk& walk = charts_.edges[i];
+    claim.measure(walk.left_is_left ? walk.jump : std::numeric_limits<double>::infinity(), Offender::Edge,
+                  static_cast<int>(i), d_.edges[i].points.front().uv,
+                  walk.left_is_left ? "the edge jumps between two points" : "its left site is to the right");
+  }
+  return claim.done();
+}
+
+// The rays' tangents stand around a vertex counter-clockwise in the order of its generators, and the spokes halve the
+// sectors between them. turn_between() is at least zero, so the sum is a whole number of turns.
+CertificateClaim Examiner::sectors() const {
+  Claim claim("sectors", "around each vertex the sectors between its rays add up to one turn (radians off)", kOneTurn);
+  for (std::size_t i = 0; i < d_.vertices.size(); ++i) {
+    const std::vector<RayEnd>& rays = at_vertices_[i];
+    if (rays.size() < 2) continue;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const RayEnd &a = rays[k], &b = rays[(k + 1) % rays.size()];
+      if (a.found && b.found) sum += turn_between(a.T, b.T, a.T.cross(a.N));
+    }
+    claim.measure(std::abs(sum - kTwoPi), Offender::Vertex, static_cast<int>(i), d_.vertices[i].uv,
+                  "the rays do not stand around the vertex in the order of its generators");
+  }
+  return claim.done();
+}
+
+CertificateClaim Examiner::stars() const {
+  Claim claim("stars", "around each site the angle of the rays to its edges grows (largest step back, relative)",
+              kNoStepBack);
+  for (std::size_t i = 0; i < charts_.cells.size(); ++i) {
+    const CellChart& chart = charts_.cells[i];
+    claim.measure(chart.found ? chart.back : std::numeric_limits<double>::infinity(), Offender::Cell,
+                  static_cast<int>(i), site(static_cast<int>(i)),
+                  chart.found ? "the border turns back" : "a ray to the border can't be followed");
+  }
+  return claim.done();
+}
+
+/// What the loops' turn lacks of 2 pi. A site on the border of the face is passed by its own loop: there the turn is
+/// what the face covers of the directions.
+double Examiner::missing_turn(int cell) const {
+  const double missing = kTwoPi - charts_.cells[cell].turn;
+  if (std::abs(missing) <= kOneTurn) return std::abs(missing);
+  const bool on_border = domain_.distance_to_border(site(cell)) <= domain_.deflection();
+  if (on_border && missing > 0.0 && missing < kTwoPi + kOneTurn) return 0.0;
+  return std::abs(missing);
+}
+
+CertificateClaim Examiner::turns() const {
+  Claim claim("one turn", "the loops of each cell go around its site once and close (radians off)", kOneTurn);
+  for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i) {
+    claim.measure(missing_turn(i), Offender::Cell, i, site(i), "the loops do not go around the site once");
+    // In the unit of the claim: a jump of the ray beyond its bound is as bad as a whole turn.
+    if (!(charts_.cells[i].corner_gap <= kCornersMeet))
+      claim.measure(kTwoPi, Offender::Cell, i, site(i), "the ray jumps where one piece of the border follows another");
+  }
+  return claim.done();
+}
+
+CertificateClaim Examiner::regularity() const {
+  Claim claim(
+      "no conjugate points",
+      "y / radius > 0 along the cells' borders (free ends of cut loci left out), and no sign change of y on one "
+      "ray of each cell: by continuity on none (largest -y / radius)",
+      -kPositive);
+  for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i) {
+    const CellChart& chart = charts_.cells[i];
+    claim.measure(-chart.least_y, Offender::Cell, i, site(i), "y vanishes on the border");
+    if (chart.conjugate_at > 0.0) claim.measure(0.0, Offender::Cell, i, site(i), "a ray has passed a conjugate point");
+  }
+  return claim.done();
+}
+
+/// What the flattening of the face's border may take of its area.
+double Examiner::flattening_slack() const {
+  double length = 0.0;
+  for (const DiagramCell& cell : d_.cells) {
+    for (const auto& loop : cell.loops) {
+      for (const CellPiece& piece : loop) {
+        for (std::size_t i = 1; i < piece.border_xyz.size(); ++i)
+          length += (piece.border_xyz[i] - piece.border_xyz[i - 1]).norm();
+      }
+    }
+  }
+  return length * domain_.deflection();
+}
+
+CertificateClaim Examiner::areas() const {
+  const double slack = (face_area_.error + flattening_slack()) / face_area_.value;
+  Claim claim("areas", "the polar areas of the cells are positive and add up to the face's (relative difference)",
+              kAreasAddUp + slack);
+  double sum = 0.0;
+  for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i) {
+    const double area = charts_.cells[i].area;
+    sum += area;
+    if (!(area > 0.0))
+      claim.measure(std::numeric_limits<double>::infinity(), Offender::Cell, i, site(i), "its area is not positive");
+  }
+  claim.measure(std::abs(sum - face_area_.value) / face_area_.value, Offender::Diagram, -1, Uv{},
+                "the cells do not add up to the face");
+  return claim.done();
+}
+
+std::string Examiner::summary(const Certificate& certificate) const {
+  for (const CertificateClaim& c : certificate.claims) {
+    if (c.holds) continue;
+    const char* kinds[] = {"", "vertex ", "edge ", "cell ", ""};
+    const std::string who = c.id >= 0 ? kinds[static_cast<int>(c.offender)] + std::to_string(c.id) + ": " : "";
+    return "not proved: " + c.name + ": " + who + c.why;
+  }
+  double error = 0.0;
+  for (const CertificateClaim& c : certificate.claims)
+    if (c.name == "radial lengths") error = c.measured;
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.1e", error);
+  std::string text = std::string("proved: every point of a cell is nearest to the cell's site, up to ") + digits +
+                     " of the distance for each edge crossed";
+  if (certificate.not_covered.empty()) return text + "; all shortest paths to it stay in the face";
+  return text + ", distances being those of the surface; paths within the face may differ for " +
+         std::to_string(certificate.not_covered.size()) + " of " + std::to_string(d_.sites.size()) +
+         " sites, whose rays leave the face";
+}
+
+Certificate Examiner::examine() {
+  Certificate certificate;
+  certificate.claims.push_back(topology());
+  std::set<int> leaving;
+  for (const DiagramWarning& w : d_.warnings)
+    if (w.kind == "path_leaves_face") leaving.insert(w.sites.begin(), w.sites.end());
+  certificate.not_covered.assign(leaving.begin(), leaving.end());
+  if (certificate.claims.back().holds) {  // else there is nothing that could be walked along
+    charts_ = chart_cells(domain_.surface(), d_);
+    trace_vertices();
+    for (const CertificateClaim& c :
+         {radial_lengths(), places(), smoothness(), sectors(), stars(), turns(), regularity(), areas()})
+      certificate.claims.push_back(c);
+  }
+  certificate.result = summary(certificate);
+  return certificate;
+}
+
+}  // namespace
+
+bool Certificate::holds() const {
+  return std::all_of(claims.begin(), claims.end(), [](const CertificateClaim& c) { return c.holds; });
+}
+
+Certificate certify(const FaceDomain& domain, const VoronoiDiagram& diagram, const Area& face_area) {
+  return Examiner(domain, diagram, face_area).examine();
+}
+
+}  // namespace geovor

@@ -1,0 +1,295 @@
+// Between two stored points the edge is taken as a cubic in normal coordinates X = s cos t, Y = s sin t about each
+// site, with the ends' slopes from the system (13): where the surface is flat an edge is a straight line there and the
+// cubic is exact. The ends of the two rays to the middle of the cubics tell how good they are, and correct them.
+#include "voronoi/edge_walk.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "voronoi/bisector.h"
+#include "voronoi/site_ray.h"
+
+namespace geovor {
+namespace {
+
+using Plane2 = Eigen::Vector2d;
+
+// A middle whose rays end this far apart, relative to the radius, is made a station of its own, and what is left is
+// halved; else one correction leaves the square.
+constexpr double kHalve = 1e-5;
+constexpr int kDeepest = 8;
+
+// Nearer to a conjugate point (y / radius) than this, angles can't be had from places.
+constexpr double kConjugate = 1e-5;
+
+// The place between two points is corrected until it changes by less than this part of the radius.
+constexpr double kSettled = 1e-13;
+constexpr int kMostCorrections = 6;
+
+/// A place of the edge with both rays to it.
+struct Station {
+  std::array<RayEnd, 2> rays;
+  std::array<Plane2, 2> slope;  ///< d(X,Y) for each length of the edge
+  Xyz tangent = Xyz::Zero();
+  bool regular = true;  ///< no conjugate point
+  double radius() const { return 0.5 * (rays[0].polar.s + rays[1].polar.s); }
+};
+
+Plane2 chart_point(const Polar& p) { return {p.s * std::cos(p.t), p.s * std::sin(p.t)}; }
+Polar polar_near(const Plane2& P, double t) { return {P.norm(), t + wrap_angle(std::atan2(P.y(), P.x()) - t)}; }
+double cross2(const Plane2& a, const Plane2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+SiteRay site_ray(int site, const RayEnd& e) { return {site, e.polar, {}, e.x, e.T, e.N, e.y}; }
+
+class Walker {
+ public:
+  Walker(const Surface& surface, const VoronoiDiagram& diagram, const DiagramEdge& edge)
+      : surface_(surface), diagram_(diagram), edge_(edge) {}
+
+  EdgeWalk walk();
+
+ private:
+  Station stored(const EdgePoint& p) const;
+  Station at(Polar left, Polar right) const;
+  void complete(Station& s) const;
+  bool found(const Station& s) const { return s.rays[0].found && s.rays[1].found; }
+  void note_stored(const EdgePoint& p, const Station& s);
+  void go(const Station& a, const Station& b, int depth);
+  void go_to_free_end(const Station& a, const Station& b);
+  Station middle(const Station& a, const Station& b, double h) const;
+  bool correct(Station& m, const Xyz& along) const;
+  void add_area(const Station& a, const Station& m, const Station& b, double h);
+  void note_turn(const Station& a, const Station& b);
+  void look_between(const Station& a, const Station& b);
+  double gap_of(const Station& s, const Xyz& place) const;
+  void finish();
+
+  const Surface& surface_;
+  const VoronoiDiagram& diagram_;
+  const DiagramEdge& edge_;
+  EdgeWalk out_;
+  double worst_ = 0.0;
+  bool complete_ = true;
+};
+
+Station Walker::at(Polar left, Polar right) const {
+  Station s;
+  s.rays[0] = trace_ray(surface_, diagram_.sites[edge_.left].uv, left, RayParts::WithSector);
+  s.rays[1] = trace_ray(surface_, diagram_.sites[edge_.right].uv, right, RayParts::WithSector);
+  if (found(s)) complete(s);
+  return s;
+}
+
+Station Walker::stored(const EdgePoint& p) const { return at({p.radius, p.left_angle}, {p.radius, p.right_angle}); }
+
+void Walker::complete(Station& s) const {
+  const BisectorPoint m{site_ray(edge_.left, s.rays[0]), site_ray(edge_.right, s.rays[1])};
+  const BisectorSlope d = bisector_slope(m);
+  s.tangent = m.tangent();
+  for (int side = 0; side < 2; ++side) {
+    const auto& [r, t] = s.rays[side].polar;
+    const double turn = side == 0 ? d.left_angle : d.right_angle;
+    s.slope[side] = d.radius * Plane2(std::cos(t), std::sin(t)) + r * turn * Plane2(-std::sin(t), std::cos(t));
+    s.regular = s.regular && std::abs(s.rays[side].y) > kConjugate * r;
+  }
+}
+
+/// Difference of the two radial lengths at a place, relative to the radius.
+double Walker::gap_of(const Station& s, const Xyz& place) const {
+  const double gap = std::abs(distance_beside(s.rays[0], place) - distance_beside(s.rays[1], place));
+  return std::max(0.0, gap - kCoordinateRounding * place.lpNorm<Eigen::Infinity>()) / s.radius();
+}
+
+void Walker::note_stored(const EdgePoint& p, const Station& s) {
+  const double off = std::max((s.rays[0].x - p.xyz).norm(), (s.rays[1].x - p.xyz).norm()) / s.radius();
+  const double gap = gap_of(s, p.xyz);
+  if (gap > worst_) worst_ = gap, out_.worst = p.uv;
+  out_.radial_gap = std::max(out_.radial_gap, gap);
+  out_.place_gap = std::max(out_.place_gap, off);
+}
+
+/// Arc length of a cubic arc with these end tangents, to the fourth order in its bend.
+double arc_length(const Station& a, const Station& b) {
+  const Xyz chord = b.rays[0].x - a.rays[0].x;
+  const double length = chord.norm();
+  const Xyz e = chord / length, p = a.tangent - a.tangent.dot(e) * e, q = b.tangent - b.tangent.dot(e) * e;
+  const double bend = (p.squaredNorm() + q.squaredNorm()) / 15.0 - p.dot(q) / 30.0;
+  return length * (1.0 + (std::isfinite(bend) ? bend : 0.0));
+}
+
+Station Walker::middle(const Station& a, const Station& b, double h) const {
+  std::array<Polar, 2> aim;
+  for (int side = 0; side < 2; ++side) {
+    const Plane2 P = chart_point(a.rays[side].polar), Q = chart_point(b.rays[side].polar);
+    const Plane2 m = 0.5 * (P + Q) + h / 8.0 * (a.slope[side] - b.slope[side]);
+    aim[side] = polar_near(m, a.rays[side].polar.t);
+  }
+  return at(aim[0], aim[1]);
+}
+
+// To the place x_p + a T_p + b N_p in the plane across the chord where both radial lengths agree, to the square of what
+// was missing.
+bool Walker::correct(Station& m, const Xyz& along) const {
+  const RayEnd &p = m.rays[0], &q = m.rays[1];
+  const double lag = distance_beside(q, p.x) - p.polar.s;  // a (1 - <T_q, T_p>) - b <T_q, N_p> = lag
+  const double qa = 1.0 - q.T.dot(p.T), qb = -q.T.dot(p.N), ca = along.dot(p.T), cb = along.dot(p.N);
+  const double determinant = qa * cb - qb * ca, a = lag * cb / determinant, b = -lag * ca / determinant;
+  if (!m.regular || !std::isfinite(a) || !std::isfinite(b)) return false;
+  const double radius = p.polar.s + a;
+  const Xyz place = p.x + a * p.T + b * p.N;
+  for (RayEnd& ray : m.rays) {
+    ray.sector += (radius - ray.polar.s) * ray.y;
+    ray.polar = {radius, ray.polar.t + ray.N.dot(place - ray.x) / ray.y};
+    ray.x = place;
+  }
+  return radius > 0.0;
+}
+
+void Walker::go(const Station& a, const Station& b, int depth) {
+  const double h = arc_length(a, b);
+  const Xyz along = (b.rays[0].x - a.rays[0].x).normalized();
+  if (!(h > 0.0)) return;  // a vertex on the edge's first point
+  Station m = middle(a, b, h);
+  if (!found(m)) {
+    complete_ = false;
+    return;
+  }
+  const double gap = (m.rays[0].x - m.rays[1].x).norm() / m.radius();
+  const bool corrected = correct(m, along);
+  if (!(gap <= kHalve) && depth < kDeepest && corrected) {
+    const Station anew = at(m.rays[0].polar, m.rays[1].polar);
+    if (found(anew) && anew.regular) {
+      go(a, anew, depth + 1);
+      go(anew, b, depth + 1);
+      return;
+    }
+  }
+  out_.jump = std::max(out_.jump, std::isfinite(gap) ? gap : 1.0);
+  note_turn(a, m);
+  note_turn(m, b);
+  add_area(a, m, b, h);
+}
+
+// Simpson's rule for (sector / s^2) (X dY - Y dX), which is sector dt.
+void Walker::add_area(const Station& a, const Station& m, const Station& b, double h) {
+  for (int side = 0; side < 2; ++side) {
+    const Plane2 A = chart_point(a.rays[side].polar), M = chart_point(m.rays[side].polar),
+                 B = chart_point(b.rays[side].polar);
+    const Plane2 across = 1.5 / h * (B - A) - 0.25 * (a.slope[side] + b.slope[side]);
+    const auto density = [](const RayEnd& ray, const Plane2& P, const Plane2& d) {
+      return ray.sector / P.squaredNorm() * cross2(P, d);
+    };
+    const double sum = density(a.rays[side], A, a.slope[side]) + 4.0 * density(m.rays[side], M, across) +
+                       density(b.rays[side], B, b.slope[side]);
+    out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * h / 6.0;
+  }
+}
+
+void Walker::note_turn(const Station& a, const Station& b) {
+  for (int side = 0; side < 2; ++side) {
+    ChartPiece& seen = out_.seen[side];
+    const RayEnd &from = a.rays[side], &to = b.rays[side];
+    const double turn = (side == 0 ? 1.0 : -1.0) * wrap_angle(to.polar.t - from.polar.t);
+    seen.turn += turn;
+    seen.back = std::max(seen.back, -turn * std::abs(to.y) / to.polar.s);
+    for (const RayEnd* ray : {&from, &to}) {
+      seen.shortest = seen.shortest > 0.0 ? std::min(seen.shortest, ray->polar.s) : ray->polar.s;
+    }
+    if (a.regular) seen.least_y = std::min(seen.least_y, from.y / from.polar.s);
+    if (b.regular) seen.least_y = std::min(seen.least_y, to.y / to.polar.s);
+  }
+}
+
+// Towards a free end the angles go like the square root of the way, but the cell's border there is a smooth curve
+// s = R(t), with R' = 0 at the end: Simpson's rule in t, each site for itself.
+void Walker::go_to_free_end(const Station& a, const Station& b) {
+  const auto slope_in_angle = [](const Station& s, int side) {
+    const Polar& p = s.rays[side].polar;
+    const Plane2 e(std::cos(p.t), std::sin(p.t));
+    return s.regular ? p.s * s.slope[side].dot(e) / cross2(e, s.slope[side]) : 0.0;
+  };
+  std::array<Polar, 2> aim;
+  std::array<double, 2> turn;
+  for (int side = 0; side < 2; ++side) {
+    const Polar &p = a.rays[side].polar, &q = b.rays[side].polar;
+    turn[side] = wrap_angle(q.t - p.t);
+    const double bend = turn[side] / 8.0 * (slope_in_angle(a, side) - slope_in_angle(b, side));
+    aim[side] = {0.5 * (p.s + q.s) + (std::isfinite(bend) ? bend : 0.0), p.t + 0.5 * turn[side]};
+  }
+  const Station m = at(aim[0], aim[1]);
+  if (!found(m)) {
+    complete_ = false;
+    return;
+  }
+  note_turn(a, m);
+  note_turn(m, b);
+  for (int side = 0; side < 2; ++side) {
+    const double sum = a.rays[side].sector + 4.0 * m.rays[side].sector + b.rays[side].sector;
+    out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * turn[side] / 6.0;
+  }
+}
+
+/// A place between the points, corrected with rays traced anew each time.
+void Walker::look_between(const Station& a, const Station& b) {
+  const Xyz along = (b.rays[0].x - a.rays[0].x).normalized();
+  const double h = arc_length(a, b);
+  if (!a.regular || !b.regular || !(h > 0.0)) return;
+  Station m = middle(a, b, h);
+  for (int i = 0; i < kMostCorrections && found(m); ++i) {
+    const double apart = (m.rays[0].x - m.rays[1].x).norm() / m.radius();
+    if (apart <= kSettled || !correct(m, along)) break;
+    m = at(m.rays[0].polar, m.rays[1].polar);
+  }
+  const double gap = found(m) ? gap_of(m, 0.5 * (m.rays[0].x + m.rays[1].x)) : 1.0;
+  out_.gap_between = std::isfinite(gap) ? gap : 1.0;
+}
+
+void Walker::finish() {
+  for (int side = 0; side < 2; ++side) {
+    ChartPiece& seen = out_.seen[side];
+    seen.found = complete_ && std::isfinite(seen.area);
+    const EdgePoint &p = edge_.points.front(), &q = edge_.points.back();
+    seen.first = {p.radius, side == 0 ? p.left_angle : p.right_angle};
+    seen.last = {q.radius, side == 0 ? q.left_angle : q.right_angle};
+  }
+  std::swap(out_.seen[1].first, out_.seen[1].last);
+}
+
+EdgeWalk Walker::walk() {
+  const auto free_end = [this](int vertex) { return vertex >= 0 && diagram_.vertices[vertex].sites.size() == 1; };
+  const int count = static_cast<int>(edge_.points.size());
+  Station last = stored(edge_.points[0]);
+  if (found(last)) note_stored(edge_.points[0], last);
+  out_.seen[1].last_y = last.rays[1].y;
+  for (int i = 1; i < count && complete_; ++i) {
+    const Station next = stored(edge_.points[i]);
+    if (!found(last) || !found(next)) {
+      complete_ = false;
+      break;
+    }
+    note_stored(edge_.points[i], next);
+    const Xyz way = edge_.points[i].xyz - edge_.points[i - 1].xyz;
+    if (last.regular && next.regular) {
+      out_.left_is_left = out_.left_is_left && (last.tangent + next.tangent).dot(way) >= 0.0;
+    }
+    if ((i == 1 && free_end(edge_.from)) || (i + 1 == count && free_end(edge_.to)) || !last.regular || !next.regular) {
+      go_to_free_end(last, next);
+    } else {
+      if (i == count / 2) look_between(last, next);
+      go(last, next, 0);
+    }
+    last = next;
+  }
+  out_.seen[0].last_y = last.rays[0].y;
+  finish();
+  return out_;
+}
+
+}  // namespace
+
+EdgeWalk walk_edge(const Surface& surface, const VoronoiDiagram& diagram, int edge) {
+  return Walker(surface, diagram, diagram.edges[edge]).walk();
+}
+
+}  // namespace geovor

@@ -1,0 +1,97 @@
+#include "voronoi/ray_end.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "geodesic/closed_form_path.h"
+#include "geodesic/closed_forms.h"
+#include "geodesic/integrator.h"
+#include "surface/forms.h"
+#include "surface/tangent_frame.h"
+
+namespace geovor {
+namespace {
+
+// The integral of y over two pieces is taken with y at three places and y' at the ends (error s^7 y^(6) / 604800); with
+// y' in the middle as well the rule of lower order (s^5 y^(4) / 11520) costs nothing. If the two agree to this the
+// better one is good to about 1e-9.
+constexpr double kOrdersAgree = 1e-6;
+constexpr int kMostPieces = 64;
+
+/// The states at the ends of equal pieces of the ray, the start left out; fewer where the geodesic ends early.
+std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, int pieces) {
+  const Xyz T = tangent_frame(surface, site).at_angle(to.t);
+  std::vector<SpaceState> states;
+  if (has_closed_form(surface)) {
+    const UvVec direction = tangent_components(surface.jet(site), T);
+    for (int i = 1; i <= pieces; ++i) states.push_back(closed_form_at(surface, site, direction, T, to.s * i / pieces));
+    return states;
+  }
+  TraceOptions options;
+  options.stop_at_domain = false;
+  options.tolerance = kRetraceTolerance;
+  GeodesicIntegrator path(surface, site, T, to.s, options);
+  for (int i = 1; i <= pieces; ++i) {
+    if (path.advance(to.s * i / pieces) != TraceStatus::Converged) break;
+    states.push_back(path.at());
+  }
+  return states;
+}
+
+/// The integral of y by both rules.
+struct SectorRules {
+  double high = 0.0, low = 0.0;
+};
+SectorRules integrate_y(const std::vector<SpaceState>& states, double s) {
+  const double h = s / static_cast<double>(states.size());
+  SectorRules sum;
+  double y = 0.0, dy = 1.0;
+  for (std::size_t i = 0; i + 1 < states.size(); i += 2) {
+    const SpaceState &m = states[i], &b = states[i + 1];
+    sum.high += h / 15.0 * (7.0 * y + 16.0 * m.y + 7.0 * b.y) + h * h / 15.0 * (dy - b.dy);
+    sum.low += h / 2.0 * (y + 2.0 * m.y + b.y) + h * h / 12.0 * (dy - b.dy);
+    y = b.y, dy = b.dy;
+  }
+  return sum;
+}
+
+RayEnd end_of(const SpaceState& at, Polar to) {
+  return {at.S.allFinite() && at.tangent.allFinite() && std::isfinite(at.y),
+          to,
+          at.S,
+          at.tangent,
+          at.normal.cross(at.tangent),
+          at.y,
+          at.dy,
+          std::numeric_limits<double>::quiet_NaN()};
+}
+
+}  // namespace
+
+RayEnd trace_ray(const Surface& surface, Uv site, Polar to, RayParts parts) {
+  RayEnd ray;
+  ray.polar = to;
+  if (!(to.s > 0.0) || !std::isfinite(to.s) || !std::isfinite(to.t)) return ray;
+  if (parts == RayParts::EndAlone) {
+    const auto states = states_along(surface, site, to, 1);
+    return states.empty() ? ray : end_of(states.back(), to);
+  }
+  double last = std::numeric_limits<double>::quiet_NaN();
+  for (int pieces = 2; pieces <= kMostPieces; pieces *= 2) {
+    const auto states = states_along(surface, site, to, pieces);
+    if (static_cast<int>(states.size()) < pieces) return ray;
+    const SectorRules sum = integrate_y(states, to.s);
+    ray = end_of(states.back(), to);
+    ray.sector = sum.high;
+    // Across knots the orders don't show: there doubling must change nothing.
+    const bool settled = std::abs(sum.high - sum.low) <= kOrdersAgree * std::abs(sum.high) ||
+                         std::abs(sum.high - last) <= 0.01 * kOrdersAgree * std::abs(sum.high);
+    if (settled) break;
+    last = sum.high;
+  }
+  return ray;
+}
+
+}  // namespace geovor
