@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "brep/face_loops.h"
 #include "brep/flatten.h"
+#include "surface/forms.h"
 
 namespace geovor {
 namespace {
@@ -71,28 +72,44 @@ FaceDomain::FaceDomain(const CadModel& model, const CadFace& face, double deflec
   }
   const std::vector<TrimLoop> loops = loops_or_whole_domain(face);
   const std::vector<int> uses = edge_uses(loops);
-  std::vector<BorderSegment> all;
   for (const TrimLoop& loop : loops) {
-    std::vector<Uv> points;
-    std::vector<bool> real;  // whether the segment that starts at the point is border
+    std::vector<BorderChord> chords;
     for (const Coedge& coedge : loop.coedges) {
-      const std::vector<Uv> chain = flatten(*surface_, coedge, deflection);
-      points.insert(points.end(), chain.begin(), chain.end());
-      real.insert(real.end(), chain.size(), is_border(model, *surface_, coedge, uses));
+      curves_.push_back(coedge.pcurve);
+      for (BorderChord chord : flatten(*surface_, coedge, deflection)) {
+        chord.ends_face = is_border(model, *surface_, coedge, uses);
+        chords.push_back(chord);
+      }
     }
-    std::vector<Uv> clean;
-    const std::size_t n = points.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Uv next = points[(i + 1) % n];
-      if (points[i] == next) continue;
-      clean.push_back(points[i]);
-      all.push_back({points[i], next});
-      if (real[i]) border_.push_back(all.back());
-    }
-    if (clean.size() >= 3) loops_.push_back(std::move(clean));
+    add_loop(std::move(chords));
   }
   if (loops_.empty()) throw Error(ErrorCode::FaceRejected, "the loops of the face enclose nothing; repair the face");
+  std::vector<BorderSegment> all;
+  std::vector<ChordBox> boxes;
+  for (const auto& chords : chords_) {
+    for (const BorderChord& c : chords) {
+      all.push_back({c.a, c.b});
+      if (!c.ends_face) continue;
+      border_.push_back({c.a, c.b});
+      boxes.push_back(ChordBox::around(c.a, c.b));
+    }
+  }
+  border_tree_ = NestedBoxes<ChordBox>(boxes);
   index_ = BorderIndex(all, bounds(loops_));
+}
+
+// Gaps between the coedges, which the CAD's tolerance allows, are closed by straight chords; chords without length go.
+void FaceDomain::add_loop(std::vector<BorderChord> chords) {
+  std::vector<BorderChord> closed;
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    const BorderChord &c = chords[i], &next = chords[(i + 1) % chords.size()];
+    if (!(c.a == c.b)) closed.push_back(c);
+    if (!(c.b == next.a)) closed.push_back({c.b, next.a, nullptr, 0.0, 0.0, c.ends_face});
+  }
+  if (closed.size() < 3) return;
+  loops_.emplace_back();
+  for (const BorderChord& c : closed) loops_.back().push_back(c.a);
+  chords_.push_back(std::move(closed));
 }
 
 bool FaceDomain::contains(Uv p) const {
@@ -111,20 +128,19 @@ Uv FaceDomain::to_principal(Uv p) const {
 }
 
 double FaceDomain::distance_to_border(Uv p) const {
-  const SurfaceJet j = surface_->jet(p);
-  const double E = j.Su.dot(j.Su), F = j.Su.dot(j.Sv), G = j.Sv.dot(j.Sv);
-  const auto product = [&](UvVec a, UvVec b) { return E * a.u * b.u + F * (a.u * b.v + a.v * b.u) + G * a.v * b.v; };
+  const FirstForm I = first_form(surface_->jet(p));
   double nearest2 = kInf;
   // One period more on each side: the border next to p may belong to the copy beyond the seam.
   const UvBox around = widened(box(), surface_->u_period().value_or(0.0), surface_->v_period().value_or(0.0));
   any_copy(*surface_, around, p, [&](Uv q) {
-    for (const BorderSegment& s : border_) {
-      const UvVec d = s.b - s.a, w = q - s.a;
-      const double length2 = product(d, d);
-      const double k = length2 > 0.0 ? std::clamp(product(w, d) / length2, 0.0, 1.0) : 0.0;
+    const auto enter = [&](const ChordBox& box) { return !(box.least_distance2(I, q) >= nearest2); };
+    border_tree_.walk(enter, [&](int i) {
+      const UvVec d = border_[i].b - border_[i].a, w = q - border_[i].a;
+      const double length2 = dot(I, d, d);
+      const double k = length2 > 0.0 ? std::clamp(dot(I, w, d) / length2, 0.0, 1.0) : 0.0;
       const UvVec off = w - k * d;
-      nearest2 = std::min(nearest2, product(off, off));
-    }
+      nearest2 = std::min(nearest2, dot(I, off, off));
+    });
     return false;
   });
   return std::sqrt(std::max(nearest2, 0.0));

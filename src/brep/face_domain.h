@@ -4,9 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "brep/border_chord.h"
 #include "brep/border_index.h"
+#include "brep/chord_box.h"
 #include "brep/face_area.h"
 #include "brep/model.h"
+#include "brep/nested_boxes.h"
 #include "brep/parameter_stretch.h"
 
 namespace geovor {
@@ -56,16 +59,22 @@ class FaceDomain {
   const UvBox& box() const { return index_.box(); }
   /// Closed polylines, first point not repeated; outer loops counter-clockwise, holes clockwise.
   const std::vector<std::vector<Uv>>& loops() const { return loops_; }
+  /// chords()[i][k] runs from loops()[i][k] to the next point of that polyline.
+  const std::vector<std::vector<BorderChord>>& chords() const { return chords_; }
   const Surface& surface() const { return *surface_; }
   double deflection() const { return deflection_; }
 
  private:
+  void add_loop(std::vector<BorderChord> chords);
   std::vector<double> border_crossings(Uv a, Uv b) const;
 
   SurfacePtr surface_;
   double deflection_;
+  std::vector<Curve2Ptr> curves_;  ///< kept alive for the chords
   std::vector<std::vector<Uv>> loops_;
+  std::vector<std::vector<BorderChord>> chords_;
   std::vector<BorderSegment> border_;  ///< the segments that are neither seam nor pole
+  NestedBoxes<ChordBox> border_tree_;
   BorderIndex index_;
 };
 

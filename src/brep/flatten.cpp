@@ -36,10 +36,10 @@ class Flattener {
   Flattener(const Surface& surface, const Curve2& curve, double deflection)
       : surface_(surface), curve_(curve), deflection_(deflection) {}
 
-  /// Appends the chords of the piece from `a` to `b`, without `a`; `first_chords` of them or more where it is curved.
-  void piece(const Sample& a, const Sample& b, int first_chords, std::vector<Uv>& out) const {
+  /// Appends the chords of the piece from `a` to `b`; `first_chords` of them or more where it is curved.
+  void piece(const Sample& a, const Sample& b, int first_chords, std::vector<BorderChord>& out) const {
     if (straight(a, b)) {
-      out.push_back(b.uv);
+      out.push_back({a.uv, b.uv, nullptr, a.t, b.t});
       return;
     }
     Sample from = a;
@@ -78,7 +78,7 @@ class Flattener {
     return (j.Su * off.u + j.Sv * off.v).norm();
   }
 
-  void chord(const Sample& a, const Sample& b, int depth, std::vector<Uv>& out) const {
+  void chord(const Sample& a, const Sample& b, int depth, std::vector<BorderChord>& out) const {
     double worst = 0.0;
     Sample middle = a;
     for (const double k : kProbes) {
@@ -87,7 +87,7 @@ class Flattener {
       worst = std::max(worst, distance(a.uv, b.uv, s.uv));
     }
     if (!(worst > deflection_) || depth == 0) {
-      out.push_back(b.uv);
+      out.push_back({a.uv, b.uv, &curve_, a.t, b.t});
       return;
     }
     chord(a, middle, depth - 1, out);
@@ -101,22 +101,25 @@ class Flattener {
 
 }  // namespace
 
-std::vector<Uv> flatten(const Surface& surface, const Coedge& coedge, double deflection) {
+std::vector<BorderChord> flatten(const Surface& surface, const Coedge& coedge, double deflection) {
   if (!coedge.pcurve) throw Error(ErrorCode::FaceRejected, "an edge has no p-curve on the face; repair the face");
   const Flattener flattener(surface, *coedge.pcurve, deflection);
   Sample from = sample(*coedge.pcurve, coedge.range.lo);
-  std::vector<Uv> points{from.uv};
+  std::vector<BorderChord> chords;
   std::vector<double> ends = coedge.pcurve->breaks(coedge.range);
   ends.push_back(coedge.range.hi);
   const int pieces = static_cast<int>(ends.size());
   const int first_chords = (kFirstChords + pieces - 1) / pieces;
   for (const double t : ends) {
     const Sample to = sample(*coedge.pcurve, t);
-    flattener.piece(from, to, first_chords, points);
+    flattener.piece(from, to, first_chords, chords);
     from = to;
   }
-  if (coedge.reversed) std::reverse(points.begin(), points.end());
-  return points;
+  if (coedge.reversed) {
+    std::reverse(chords.begin(), chords.end());
+    for (BorderChord& c : chords) std::swap(c.a, c.b), std::swap(c.from, c.to);
+  }
+  return chords;
 }
 
 }  // namespace geovor

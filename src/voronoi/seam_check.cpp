@@ -26,7 +26,7 @@ std::vector<Part> parts_of(const FaceBorder& border) {
     for (int k = 0; k < border.segment_count(c); ++k) {
       const BorderPlace start{c, static_cast<double>(k)};
       // The end is taken from the segment itself: the next one may start elsewhere, beyond a seam.
-      parts.push_back({start, border.xyz(start), border.xyz_of(border.uv(start) + border.direction(start))});
+      parts.push_back({start, border.xyz(start), border.xyz_of(border.uv_in_segment(c, k, 1.0))});
     }
   }
   return parts;
@@ -34,14 +34,14 @@ std::vector<Part> parts_of(const FaceBorder& border) {
 
 /// Distance in space from x to the curve of the part; exact where x is near it.
 double distance_to(const FaceBorder& border, const Part& part, const Xyz& x) {
-  const Uv start = border.uv(part.start);
-  const UvVec way = border.direction(part.start);
+  const int segment = static_cast<int>(part.start.parameter);
   const Xyz chord = part.b - part.a;
   double k = 0.5;
-  Xyz there = border.xyz_of(start + k * way);
+  const auto at = [&](double f) { return border.xyz_of(border.uv_in_segment(part.start.cycle, segment, f)); };
+  Xyz there = at(k);
   for (int i = 0; i < kRefinements; ++i) {
     k = std::clamp(k + chord.dot(x - there) / chord.squaredNorm(), 0.0, 1.0);
-    there = border.xyz_of(start + k * way);
+    there = at(k);
   }
   return (there - x).norm();
 }
