@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <tuple>
 
 #include "geodesic/angle_difference.h"
 #include "geodesic/cone_development.h"
@@ -11,6 +13,8 @@
 
 namespace geovor {
 namespace {
+
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 // The kind is asked first: a cast that fails costs as much as several jets. A surface under other parameters is of its
 // base's kind, but not of its class.
@@ -52,6 +56,12 @@ Connection connect_flat(const SurfaceJet& j, UvVec way, double fallback_angle) {
 // The way to the copy of `to` whose u is nearest to from.u + near.
 UvVec flat_way(const Surface& surface, Uv from, Uv to, double near) {
   return {surface.u_period() ? nearest_turn(from.u, to.u, near) : to.u - from.u, to.v - from.v};
+}
+
+// On cylinder or cone: the geodesic that turns by about `near`, and perhaps others.
+std::vector<Connection> wound(const Surface& surface, Uv from, Uv to, double near) {
+  if (const Cone* cone = as_cone(surface)) return connect_cone(*cone, from, to, near);
+  return {connect_flat(surface.jet(from), flat_way(surface, from, to, near), 0.0)};
 }
 
 }  // namespace
@@ -96,6 +106,28 @@ std::optional<std::vector<Connection>> connections_closed_form(const Surface& su
   const UvVec way = flat_way(surface, from, to, 0.0);
   std::vector<Connection> all{connect_flat(j, way, 0.0)};
   if (surface.u_period()) all.push_back(connect_flat(j, {other_way_round(from.u, to.u, way.u), way.v}, 0.0));
+  return all;
+}
+
+// One more turn each way, until both ways are too long or nothing new (a cone's tip is reached without turning).
+std::vector<Connection> geodesics_closed_form(const Surface& surface, Uv from, Uv to, double limit) {
+  std::vector<Connection> all = connections_closed_form(surface, from, to).value_or(std::vector<Connection>{});
+  std::erase_if(all, [limit](const Connection& c) { return !(c.length < limit); });
+  const auto add = [&](const Connection& c) {
+    const auto same = [&c](const Connection& a) { return a.length == c.length && a.angle == c.angle; };
+    const bool is_new = c.length < limit && std::none_of(all.begin(), all.end(), same);
+    if (is_new) all.push_back(c);
+    return is_new;
+  };
+  bool winds = surface.u_period() && as_sphere(surface) == nullptr && std::isfinite(limit);
+  for (int turns = 1; winds; ++turns) {
+    winds = false;
+    for (const double near : {turns * kFullTurn, -turns * kFullTurn})
+      for (const Connection& c : wound(surface, from, to, near)) winds = add(c) || winds;
+  }
+  std::sort(all.begin(), all.end(), [](const Connection& a, const Connection& b) {
+    return std::tie(a.length, a.angle) < std::tie(b.length, b.angle);
+  });
   return all;
 }
 

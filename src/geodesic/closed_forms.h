@@ -21,4 +21,8 @@ std::optional<Connection> connect_closed_form(const Surface& surface, Uv from, U
 /// The shortest geodesic, and the next one that winds the other way, by length.
 std::optional<std::vector<Connection>> connections_closed_form(const Surface& surface, Uv from, Uv to);
 
+/// All geodesics shorter than `limit`, by length, however often they wind round a cylinder or a cone; less than once
+/// round a sphere. With an infinite limit those of connections_closed_form. REQUIRES: has_closed_form(surface)
+std::vector<Connection> geodesics_closed_form(const Surface& surface, Uv from, Uv to, double limit);
+
 }  // namespace geovor

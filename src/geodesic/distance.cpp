@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "geodesic/closed_forms.h"
-#include "geodesic/fan.h"
 #include "geodesic/graph_path.h"
 #include "geodesic/integrator.h"
+#include "geodesic/polar_atlas.h"
 #include "geodesic/relax.h"
 
 namespace geovor {
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// Hits of a fan are good to this part of their length.
-constexpr double kHitError = 0.03;
+// Rays of a fan may run so far beyond the domain: what lies at the border is between rays as well.
+constexpr double kBeyondBorder = 0.05;
 
 // Two results are one geodesic if they agree to this in length (relative) and in the angle at the start.
 constexpr double kSameLength = 1e-9;
@@ -99,11 +99,8 @@ double length_of(const Surface& surface, const std::vector<Uv>& points) {
 }
 
 // A hit beside a geodesic that is known already.
-bool is_known(const FanHit& hit, const std::vector<Connection>& all) {
-  return hit.plain && std::any_of(all.begin(), all.end(), [&](const Connection& c) {
-           return std::abs(c.length - hit.at.s) <= kHitError * c.length &&
-                  std::abs(std::remainder(c.angle - hit.at.t, 2.0 * M_PI)) <= 0.5 * hit.turn;
-         });
+bool is_known(const AtlasHit& hit, const std::vector<Connection>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const Connection& c) { return is_meant(hit, {c.length, c.angle}); });
 }
 
 std::optional<DomainExit> first_exit(const Surface& surface, Uv from, const Connection& c) {
@@ -225,12 +222,12 @@ void DistanceFinder::search_far(Uv from, Uv to, DistanceResult& result) const {
 
 // True if the answer is certain now.
 bool DistanceFinder::search_fan_of(const Ends& ends, double bound, DistanceResult& result) const {
-  const Fan fan = search_fan(*surface_, ends.from, ends.to, bound);
-  result.evaluations += fan.evaluations;
+  const PolarAtlas fan(*surface_, ends.from, {bound, kBeyondBorder, ends.at_to.S});
+  result.evaluations += fan.evaluations();
   ConnectOptions once = options_.connect;
   once.persist = false;
-  std::vector<FanHit> unsettled;
-  for (const FanHit& hit : fan.hits) {
+  std::vector<AtlasHit> unsettled;
+  for (const AtlasHit& hit : fan.hits(ends.at_to.S, kInf)) {
     if (is_known(hit, result.candidates)) continue;
     const Connection c = connect(*surface_, ends.from, ends.to, hit.at, once);
     if (c.status != ConnectStatus::Converged && hit.plain) unsettled.push_back(hit);
@@ -239,7 +236,8 @@ bool DistanceFinder::search_fan_of(const Ends& ends, double bound, DistanceResul
   // A plain hit from which no geodesic was found may stand for a shorter one; nor was anything searched beyond the
   // fan's reach.
   const auto in_doubt = [&](double length) {
-    return length > kFanReach * bound || std::any_of(unsettled.begin(), unsettled.end(), [&](const FanHit& hit) {
+    return length > PolarAtlas::kReach * bound ||
+           std::any_of(unsettled.begin(), unsettled.end(), [&](const AtlasHit& hit) {
              return hit.at.s < (1.0 - kHitError) * length && !is_known(hit, result.candidates);
            });
   };
@@ -247,7 +245,7 @@ bool DistanceFinder::search_fan_of(const Ends& ends, double bound, DistanceResul
     result.doubt = Doubt::NotConverged;
   } else if (result.candidates.front().leaves_domain) {
     result.doubt = Doubt::LeavesDomain;
-  } else if (!fan.complete || in_doubt(result.candidates.front().length)) {
+  } else if (std::isfinite(fan.complete_to()) || in_doubt(result.candidates.front().length)) {
     result.doubt = Doubt::FanLost;
   } else {
     result.certainty = Certainty::Fan;

@@ -67,9 +67,16 @@ int SurfaceSurvey::Axis::last(Interval reach) const {
   return periodic ? i : std::clamp(i, 0, cells - 1);
 }
 
+SurfaceSurvey::Axis SurfaceSurvey::Axis::of(Interval range, Interval domain, bool periodic) {
+  return {range, periodic, kFewestCells, !periodic && range.lo > domain.lo, !periodic && range.hi < domain.hi};
+}
+
 SurfaceSurvey::SurfaceSurvey(const Surface& surface, int most_cells)
-    : u_{surface.domain().u, surface.u_period().has_value(), kFewestCells},
-      v_{surface.domain().v, surface.v_period().has_value(), kFewestCells} {
+    : SurfaceSurvey(surface, surface.domain(), most_cells) {}
+
+SurfaceSurvey::SurfaceSurvey(const Surface& surface, const UvBox& box, int most_cells)
+    : u_(Axis::of(box.u, surface.domain().u, surface.u_period().has_value())),
+      v_(Axis::of(box.v, surface.domain().v, surface.v_period().has_value())) {
   const auto finite = [](Interval x) { return x.length() > 0.0 && x.length() < kInf; };
   usable_ = finite(u_.range) && finite(v_.range) && surface.continuity() > 0;
   if (!usable_) return;
@@ -129,6 +136,7 @@ std::optional<SurfaceSurvey::Region> SurfaceSurvey::ball(Uv centre, double radiu
     r_u = std::max(r_u, radius * rate_u);
     r_v = std::max(r_v, radius * rate_v);
     if (!(r_u < kInf && r_v < kInf) || u_.wraps(r_u) || v_.wraps(r_v)) return std::nullopt;
+    if (u_.leaves(centre.u, r_u) || v_.leaves(centre.v, r_v)) return std::nullopt;
   }
   return std::nullopt;
 }

@@ -14,6 +14,10 @@ class SurfaceSurvey {
   /// `most_cells` in each direction, where the surface is curved so much that fewer are too wide to tell anything.
   explicit SurfaceSurvey(const Surface& surface, int most_cells);
 
+  /// The same of a box of the domain alone, as of one that is infinite. Nothing is known of what reaches a side of the
+  /// box that is not the domain's.
+  SurfaceSurvey(const Surface& surface, const UvBox& box, int most_cells);
+
   /// A rectangle of the parameter plane that holds every path of a length from a point, with bounds of what is in it.
   struct Region {
     UvBox box;
@@ -41,6 +45,9 @@ class SurfaceSurvey {
     Interval range;
     bool periodic = false;
     int cells = 0;
+    bool cut_low = false, cut_high = false;  ///< the domain goes on there
+    static Axis of(Interval range, Interval domain, bool periodic);
+    bool leaves(double x, double r) const { return (cut_low && x - r < range.lo) || (cut_high && x + r > range.hi); }
     double cell() const;
     int wrapped(int i) const { return (i % cells + cells) % cells; }
     Interval reached(double x, double r) const;

@@ -9,11 +9,15 @@
 namespace geovor {
 namespace {
 
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
 // Cells of the survey in each direction.
 constexpr int kSurveyCells = 96;
 
 // What is asked of the survey: more than is needed now, for the next query.
 constexpr double kAhead = 2.0;
+
+constexpr double kAtlasAhead = 1.25;
 
 // A rough ray's length is good to kRoughly: beyond some of these it is not shorter than the limit.
 constexpr double kClearly = 1.0 + 3.0 * kRoughly;
@@ -22,6 +26,24 @@ std::vector<Xyz> positions(const SiteRays& rays) {
   std::vector<Xyz> all;
   for (int i = 0; i < rays.count(); ++i) all.push_back(rays.surface().position(rays.site(i)));
   return all;
+}
+
+// What of an infinite domain is surveyed: the sites, and as much again on either side.
+Interval surveyed(Interval domain, double first, double last, double reach) {
+  return {std::isfinite(domain.lo) ? domain.lo : first - reach, std::isfinite(domain.hi) ? domain.hi : last + reach};
+}
+
+UvBox survey_box(const SiteRays& rays) {
+  const UvBox d = rays.surface().domain();
+  if (rays.count() == 0) return d;
+  UvBox sites{{rays.site(0).u, rays.site(0).u}, {rays.site(0).v, rays.site(0).v}};
+  for (int i = 1; i < rays.count(); ++i) {
+    const Uv p = rays.site(i);
+    sites = {{std::min(sites.u.lo, p.u), std::max(sites.u.hi, p.u)},
+             {std::min(sites.v.lo, p.v), std::max(sites.v.hi, p.v)}};
+  }
+  return {surveyed(d.u, sites.u.lo, sites.u.hi, sites.u.length()),
+          surveyed(d.v, sites.v.lo, sites.v.hi, sites.v.length())};
 }
 
 bool holds(const std::vector<SiteRay>& rays, const SiteRay& ray) {
@@ -42,8 +64,8 @@ NearbySites::NearbySites(const SiteRays& rays)
       tree_(positions(rays)),
       known_(static_cast<std::size_t>(rays.count())) {
   if (closed_form_) return;
-  survey_.emplace(rays.surface(), kSurveyCells);
-  finder_.emplace(rays.surface());
+  survey_.emplace(rays.surface(), survey_box(rays), kSurveyCells);
+  atlases_.resize(known_.size());
   for (int i = 0; i < rays.count(); ++i) frames_.push_back(tangent_frame(rays.surface(), rays.site(i)));
 }
 
@@ -72,6 +94,7 @@ std::vector<SiteRay> NearbySites::nearer_than(double limit, Uv m, const std::vec
 }
 
 void NearbySites::add(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const {
+  if (q.x == tree_.point(site)) return found.push_back(no_way(q, site));
   if (closed_form_) return add_closed_form(q, site, known, found);
   if (unique_to(site, q.limit)) {
     if (std::any_of(known.begin(), known.end(), [site](const SiteRay& r) { return r.site == site; })) return;
@@ -95,45 +118,108 @@ bool NearbySites::add_unique(const Query& q, int site, std::vector<SiteRay>& fou
   return true;
 }
 
+SiteRay NearbySites::no_way(const Query& q, int site) const {
+  const TangentFrame frame = tangent_frame(rays_.surface(), rays_.site(site));
+  return {site, {0.0, 0.0}, q.m, q.x, frame.e1, frame.e2, 0.0};
+}
+
 void NearbySites::add_closed_form(const Query& q, int site, const std::vector<SiteRay>& known,
                                   std::vector<SiteRay>& found) const {
-  const auto all = connections_closed_form(rays_.surface(), rays_.site(site), q.m);
-  for (const Connection& c : *all) {
+  const auto all = geodesics_closed_form(rays_.surface(), rays_.site(site), q.m, q.limit);
+  for (const Connection& c : all) {
     if (!(c.length < q.limit && c.y > 0.0)) continue;
     const auto ray = rays_.to(site, q.m, Polar{c.length, c.angle});
     if (ray && !holds(known, *ray) && !holds(found, *ray)) found.push_back(*ray);
   }
 }
 
+// Made for more than is needed now, for the next query.
+const PolarAtlas& NearbySites::atlas(int site, double limit) const {
+  auto& atlas = atlases_[site];
+  if (!atlas || atlas->length() < limit)
+    atlas = std::make_unique<PolarAtlas>(rays_.surface(), rays_.site(site),
+                                         AtlasOptions{kAtlasAhead * limit, kBeyond, std::nullopt});
+  return *atlas;
+}
+
+// The ray that a hit stands for, roughly where it is too long to count.
+std::optional<SiteRay> NearbySites::settle(const Query& q, int site, const AtlasHit& hit) const {
+  auto ray = rays_.roughly_to(site, q.m, hit.at);
+  if (ray && ray->polar.s > kClearly * q.limit) return ray;
+  ray = rays_.to(site, q.m, ray ? ray->polar : hit.at);
+  if (ray) return ray;
+  ConnectOptions once;
+  once.persist = false;
+  const Connection c = connect(rays_.surface(), rays_.site(site), q.m, hit.at, once);
+  if (c.status != ConnectStatus::Converged) return std::nullopt;
+  ray = rays_.at(site, Polar{c.length, c.angle});
+  if (!ray) return std::nullopt;
+  ray->uv = q.m;
+  ray->x = q.x;
+  return ray;
+}
+
+// Hits beside a geodesic that is at hand already are not shot at.
 void NearbySites::add_searched(const Query& q, int site, const std::vector<SiteRay>& known,
                                std::vector<SiteRay>& found) const {
-  const DistanceResult r = finder_->distance(rays_.site(site), q.m);
-  for (const Connection& c : r.candidates) {
-    if (!(c.length < q.limit && c.y > 0.0)) continue;
-    const auto ray = rays_.to(site, q.m, Polar{c.length, c.angle});
-    if (ray && !holds(known, *ray) && !holds(found, *ray)) found.push_back(*ray);
+  std::vector<SiteRay> settled;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(settled),
+               [site](const SiteRay& r) { return r.site == site; });
+  const auto is_settled = [&](const AtlasHit& hit) {
+    return std::any_of(settled.begin(), settled.end(), [&](const SiteRay& r) { return is_meant(hit, r.polar); });
+  };
+  std::vector<AtlasHit> open;
+  for (const AtlasHit& hit : atlas(site, q.limit).hits(q.x, (1.0 + kHitError) * q.limit)) {
+    if (is_settled(hit)) continue;
+    const auto ray = settle(q, site, hit);
+    if (!ray && hit.plain) open.push_back(hit);
+    if (!ray || holds(settled, *ray)) continue;
+    settled.push_back(*ray);
+    if (ray->polar.s < q.limit && ray->y > 0.0) found.push_back(*ray);
   }
+  for (const AtlasHit& hit : open)
+    if (!is_settled(hit)) known_[site].doubtful = std::min(known_[site].doubtful, hit.at.s);
 }
 
-// The first site that can be reached gives a bound; each nearer one betters it.
+// A way from the nearest site in space that can be reached; infinite if there is none.
+double NearbySites::some_way(Uv m, const Xyz& x) const {
+  const auto way = [&](int site) {
+    if (tree_.point(site) == x) return 0.0;
+    const auto ray = rays_.to(site, m);
+    return ray ? ray->polar.s : kInf;
+  };
+  const int next = tree_.nearest(x);
+  double shortest = next < 0 ? kInf : way(next);
+  if (next < 0 || shortest < kInf) return shortest;
+  for (const int site : in_ball(x, kInf)) {
+    if (shortest < kInf) break;
+    shortest = way(site);
+  }
+  return shortest;
+}
+
+// Every nearer one that is found leaves less to be searched.
 std::vector<SiteRay> NearbySites::nearest(Uv m) const {
   const Xyz x = rays_.surface().position(m);
-  double bound = std::numeric_limits<double>::infinity();
-  for (const int site : in_ball(x, bound)) {
-    if (const auto ray = rays_.to(site, m)) bound = ray->polar.s;
-    if (bound < std::numeric_limits<double>::infinity()) break;
-  }
-  if (!(bound < std::numeric_limits<double>::infinity())) return {};
+  double bound = some_way(m, x);
+  if (!(bound < kInf)) return {};
   std::vector<SiteRay> found;
-  for (const int site : in_ball(x, (1.0 + 2.0 * kTie) * bound)) {
-    add({m, x, (1.0 + 2.0 * kTie) * bound}, site, {}, found);
+  const auto tied = [&bound] { return (1.0 + kTie) * bound; };
+  // A length may differ from one computation to the next by less than a tie.
+  for (const int site : in_ball(x, (1.0 + kTie) * tied())) {
+    if ((x - tree_.point(site)).norm() > tied()) break;
+    add({m, x, (1.0 + kTie) * tied()}, site, {}, found);
     for (const SiteRay& r : found) bound = std::min(bound, r.polar.s);
   }
   sort_by_length(found);
-  std::erase_if(found, [&](const SiteRay& r) { return r.polar.s > (1.0 + kTie) * bound; });
+  std::erase_if(found, [&](const SiteRay& r) { return r.polar.s > tied(); });
   return found;
 }
 
-bool NearbySites::complete_to(int site, double limit) const { return limit < known_[site].doubtful; }
+bool NearbySites::complete_to(int site, double limit) const {
+  if (closed_form_) return true;
+  if (!(limit <= known_[site].doubtful)) return false;
+  return unique_to(site, limit) || atlas(site, limit).complete_to() >= limit;
+}
 
 }  // namespace geovor

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "geodesic/distance.h"
+#include "geodesic/polar_atlas.h"
 #include "geodesic/survey.h"
 #include "surface/tangent_frame.h"
 #include "voronoi/site_ray.h"
@@ -15,7 +16,9 @@ namespace geovor {
 
 /// Complete because a chord is no longer than a geodesic: only sites in the ball of radius `limit` about a point count,
 /// and of these every geodesic is found, by closed form, by the curvature survey (which says that there is one only),
-/// or by a search all round the site. Geodesics beyond their first conjugate point are never shortest and left out.
+/// or by a search all round the site. They are those of the surface continued a little beyond its domain (kBeyond);
+/// where the curvature of the domain allows one geodesic in it only, others through what lies beyond are not looked
+/// for. Geodesics beyond their first conjugate point are never shortest and left out.
 ///
 /// What is found out about a site is kept (mutable): one thread at a time.
 class NearbySites {
@@ -24,7 +27,7 @@ class NearbySites {
   explicit NearbySites(const SiteRays& rays);
 
   /// Every geodesic from a site to m that is shorter than `limit`, but those of `known` (same_generator), by length;
-  /// each as exact as SiteRays::to().
+  /// each as exact as SiteRays::to(). A site at m itself has no direction there: its ray has the length 0 and y = 0.
   std::vector<SiteRay> nearer_than(double limit, Uv m, const std::vector<SiteRay>& known) const;
 
   /// The shortest geodesic from any site to m, and after it those that tie with it to kTie. Empty where none can be
@@ -39,11 +42,13 @@ class NearbySites {
 
   const Xyz& position(int site) const { return tree_.point(site); }
 
-  /// Whether nothing is known to be missing among the geodesics of `site` that are shorter than `limit`: false where a
-  /// part of the search all round the site was lost.
+  /// Whether no geodesic of `site` shorter than `limit` can have been missed: false where a part of the search all
+  /// round the site was lost, or where from something that was found no geodesic could be computed.
   bool complete_to(int site, double limit) const;
 
   static constexpr double kTie = 1e-10;
+  /// In parts of the domain's extents.
+  static constexpr double kBeyond = 0.25;
 
  private:
   /// Up to `certain` the curvature allows one geodesic to a point only; from `open` on it does not say so.
@@ -61,14 +66,18 @@ class NearbySites {
   bool add_unique(const Query& q, int site, std::vector<SiteRay>& found) const;
   void add_closed_form(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
   void add_searched(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
+  double some_way(Uv m, const Xyz& x) const;
+  SiteRay no_way(const Query& q, int site) const;
+  std::optional<SiteRay> settle(const Query& q, int site, const AtlasHit& hit) const;
+  const PolarAtlas& atlas(int site, double limit) const;
 
   const SiteRays& rays_;
   bool closed_form_;
   SiteTree tree_;
   std::optional<SurfaceSurvey> survey_;
-  std::optional<DistanceFinder> finder_;
   std::vector<TangentFrame> frames_;
   mutable std::vector<Knowledge> known_;
+  mutable std::vector<std::unique_ptr<PolarAtlas>> atlases_;
 };
 
 }  // namespace geovor

@@ -1,0 +1,91 @@
+// The geodesics that leave a point in all directions, followed roughly and kept, to be asked which of them pass by a
+// target: the safe way to all the geodesics, and so to the shortest, between two points.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "geodesic/box_tree.h"
+#include "geodesic/connect.h"
+#include "geodesic/integrator.h"
+
+namespace geovor {
+
+/// Where a geodesic seems to end at the target.
+struct AtlasHit {
+  Polar at;           ///< to kHitError of the length
+  double turn = 0.0;  ///< to the next geodesic that was followed
+  bool plain = true;  ///< far from conjugate points, and not on another sheet: one geodesic must be meant
+};
+
+inline constexpr double kHitError = 0.03;
+
+/// Whether the geodesic with these polar coordinates may be the one that the hit stands for.
+bool is_meant(const AtlasHit& hit, const Polar& geodesic);
+
+struct AtlasOptions {
+  double length = 0.0;
+  /// How far rays may run beyond the border of the surface's domain, in parts of its extents, on the outermost pieces
+  /// continued (not more than the width of those). What lies beyond the border is not searched for gaps.
+  double beyond = 0.0;
+  /// If the only target is known, rays are given up where it is out of reach.
+  std::optional<Xyz> target;
+};
+
+class PolarAtlas {
+ public:
+  /// Follows geodesics from `from` as far as kReach lengths, their first conjugate point (none is a shortest path
+  /// beyond) or the rim, as many as are needed to leave no gap. REQUIRES: the surface outlives the atlas
+  PolarAtlas(const Surface& surface, Uv from, const AtlasOptions& options);
+
+  /// Where geodesics not longer than `limit` seem to end at x, by length. Neighbours often hit with the same geodesic
+  /// in mind.
+  std::vector<AtlasHit> hits(const Xyz& x, double limit) const;
+
+  /// The length that was asked for.
+  double length() const { return options_.length; }
+
+  /// Every point that a shorter geodesic reaches on the domain lies between two neighbouring rays that are close to
+  /// each other for the curvature thereabouts. Infinite where no ray was lost and none spread too fast.
+  double complete_to() const { return complete_to_; }
+
+  int evaluations() const { return evaluations_; }
+
+  static constexpr double kReach = 1.05;
+
+ private:
+  struct Sample {
+    double s;
+    Xyz X, T, n;
+    double y, dy;
+    double step;
+    bool inside;  // the surface's domain
+  };
+  struct Ray {
+    double t = 0.0;
+    bool lost = true;
+    std::vector<Sample> samples;
+    double y_at(double s) const;
+  };
+  /// A part of a ray, from the sample before `sample` to that.
+  struct Part {
+    int ray, sample;
+  };
+
+  class Builder;
+  double change(int ray, double s, double y) const;
+  std::optional<AtlasHit> look(const Part& part, const Xyz& x) const;
+  BoxTree::Box box(const Part& part) const;
+  void index_parts();
+
+  AtlasOptions options_;
+  std::vector<Ray> rays_;      // by angle
+  std::vector<double> turns_;  // of each, to the farther neighbour
+  std::vector<Part> parts_;
+  BoxTree tree_;  // of parts_
+  double complete_to_ = std::numeric_limits<double>::infinity();
+  int evaluations_ = 0;
+};
+
+}  // namespace geovor
