@@ -1,8 +1,39 @@
-// geovor_bench: what surfaces and geodesics cost on this machine, in one run. Times are medians; seeds are fixed.
+// geovor_bench [part...]: what surfaces, geodesics and diagrams cost on this machine, in one run. Times are medians;
+// seeds are fixed.
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <string>
+
 #include "benches.h"
 
-int main() {
-  geovor::bench::bench_jets();
-  geovor::bench::bench_geodesics();
-  geovor::bench::bench_distances();
+namespace {
+
+struct Part {
+  const char* name;
+  void (*run)();
+};
+
+constexpr Part kParts[] = {{"jets", geovor::bench::bench_jets},
+                           {"geodesics", geovor::bench::bench_geodesics},
+                           {"distances", geovor::bench::bench_distances},
+                           {"bisectors", geovor::bench::bench_bisectors}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const bool known = std::any_of(std::begin(kParts), std::end(kParts),
+                                   [&](const Part& p) { return argv[i] == std::string(p.name); });
+    if (!known) {
+      std::fprintf(stderr, "geovor_bench: no part is called %s; there are jets, geodesics, distances, bisectors\n",
+                   argv[i]);
+      return 1;
+    }
+  }
+  for (const Part& part : kParts) {
+    bool wanted = argc == 1;
+    for (int i = 1; i < argc; ++i) wanted = wanted || argv[i] == std::string(part.name);
+    if (wanted) part.run();
+  }
 }

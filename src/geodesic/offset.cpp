@@ -2,10 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "geodesic/closed_form_path.h"
-#include "geodesic/closed_forms.h"
-#include "geodesic/integrator.h"
 #include "geodesic/path.h"
+#include "geodesic/ray_source.h"
 #include "surface/forms.h"
 #include "surface/tangent_frame.h"
 
@@ -15,27 +13,9 @@ namespace geovor {
 // digits that F^2 - EG loses where parameter lines are sheared.
 OffsetJet offset(const Surface& surface, Uv p, double s, double t, const TraceOptions& options) {
   check_length(s);
-  const Xyz T = tangent_frame(surface, p).at_angle(t);
-  OffsetJet o;
-  SurfaceJet j;
-  if (has_closed_form(surface)) {
-    const UvVec direction = tangent_components(surface.jet(p), T);
-    const TraceResult path = *trace_closed_form(surface, p, direction, s);
-    o.status = path.status;
-    o.at = closed_form_at(surface, p, direction, T, path.length);
-    o.ds = path.end.d;
-    j = surface.jet(path.end.p);
-  } else {
-    GeodesicIntegrator path(surface, p, T, s, options);
-    o.status = path.advance(s);
-    o.at = path.at();
-    o.ds = path.state().d;
-    j = path.jet();
-  }
-  o.uv = o.at.p;
-  o.y = o.at.y;
-  o.dt = o.y * tangent_components(j, o.at.normal.cross(o.at.tangent));
-  return o;
+  const TracedRay end = RaySource(surface, p).end(s, t, options);
+  const UvVec left = tangent_components(end.jet, end.at.normal.cross(end.at.tangent));
+  return {end.status, end.at.p, end.d, end.at.y * left, end.at.y, end.at};
 }
 
 std::optional<ConjugatePoint> first_conjugate_point(const Surface& surface, Uv p, double t, double max_length,

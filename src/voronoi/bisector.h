@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "voronoi/site_ray.h"
+#include "voronoi/equidistant_point.h"
 
 namespace geovor {
 
@@ -34,19 +34,19 @@ struct BisectorCoordinates {
 };
 BisectorCoordinates coordinates(const BisectorPoint& m);
 
-/// A plane of space: <normal, x> = offset.
-struct SectionPlane {
-  Xyz normal;
-  double offset;
-};
+/// How far off a step of the ODE is as a rule.
+inline constexpr double kMissOfPredictor = 1e-3;
 
-/// The point of the bisector of sites `left` and `right` in the plane, by Newton's method from the guess. Promises: the
-/// two ends agree, and lie in the plane, to kBisectorTolerance of the radius. Nothing where the iteration does not
-/// settle.
+/// The point of the bisector of sites `left` and `right` in the plane, by Newton's method from the guess. The two may
+/// be branches of one site, told apart by their angles: its cut locus. `miss` is what the guess is off by, as a part of
+/// its radius: where a good predictor says so, a point costs one trace a ray. Promises: both distances of the point
+/// returned agree to kBisectorTolerance of the radius. Nothing where the iteration does not settle.
 std::optional<BisectorPoint> correct_bisector(const SiteRays& rays, int left, int right,
-                                              const BisectorCoordinates& guess, const SectionPlane& plane);
+                                              const BisectorCoordinates& guess, const SectionPlane& plane,
+                                              double miss = kMissOfPredictor);
 
-/// Bound on the mismatch of a corrected point, relative to its radius: a few times what one trace leaves open.
-inline constexpr double kBisectorTolerance = 2e-12;
+/// Bound on the difference of the two distances of a corrected point, relative to its radius: what two traces at
+/// kRayTolerance leave open.
+inline constexpr double kBisectorTolerance = 1e-12;
 
 }  // namespace geovor

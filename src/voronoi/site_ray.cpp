@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "geodesic/closed_forms.h"
-#include "geodesic/offset.h"
 #include "surface/forms.h"
+#include "voronoi/shot_ladder.h"
 
 namespace geovor {
 namespace {
@@ -33,91 +33,98 @@ constexpr int kMostShots = 12;
 constexpr double kMostTurn = 0.5;
 constexpr double kMostStretch = 0.5;
 
-void set_frame(const SurfaceJet& j, UvVec direction, SiteRay& ray) {
-  ray.x = j.S;
-  ray.T = push_forward(j, direction).normalized();
-  ray.N = unit_normal(j).cross(ray.T);
-}
-
-/// From the end of the ray to the target: about the end the geodesic circle has the curvature y'/y.
-Polar second_order_step(const SiteRay& ray, double dy, const Xyz& target) {
+/// From the end of the ray to the target, see moved().
+Polar second_order_step(const SiteRay& ray, const Xyz& target) {
   const double a = ray.T.dot(target - ray.x), b = ray.N.dot(target - ray.x);
-  const double y_there = ray.y + a * dy;
-  return {a + 0.5 * b * b * dy / ray.y, b / (y_there * ray.y > 0.0 ? y_there : ray.y)};
-}
-
-SiteRay moved(SiteRay ray, const Polar& step, double dy, Uv m, const Xyz& target) {
-  const Xyz T = (ray.T + step.t * dy * ray.N).normalized(), n = ray.T.cross(ray.N);
-  return {ray.site, {ray.polar.s + step.s, ray.polar.t + step.t}, m, target, T, n.cross(T), ray.y + step.s * dy};
+  const double y_there = ray.y + a * ray.dy;
+  return {a + 0.5 * b * b * ray.dy / ray.y, b / (y_there * ray.y > 0.0 ? y_there : ray.y)};
 }
 
 }  // namespace
+
+SiteRays::SiteRays(const Surface& surface, const std::vector<Uv>& sites)
+    : surface_(surface), sites_(sites), closed_form_(has_closed_form(surface)) {
+  sources_.reserve(sites.size());
+  for (const Uv p : sites) sources_.emplace_back(surface, p);
+}
+
+double SiteRays::curvature(int site) const {
+  const bool known = site < static_cast<int>(sources_.size());
+  return known ? sources_[site].curvature() : RaySource(surface_, sites_[site]).curvature();
+}
 
 std::optional<SiteRay> SiteRays::at(int site, Polar polar) const {
-  if (!(polar.s > 0.0)) return std::nullopt;
-  TraceOptions options;
-  options.stop_at_domain = false;
-  const OffsetJet o = offset(surface_, sites_[site], polar.s, polar.t, options);
-  if (o.status != TraceStatus::Converged) return std::nullopt;
-  SiteRay ray{site, polar, o.uv, {}, {}, {}, o.y};
-  set_frame(surface_.jet(o.uv), o.ds, ray);
-  if (!usable(ray)) return std::nullopt;
-  return ray;
+  const auto shot = shoot(site, polar, kRayTolerance);
+  if (!shot) return std::nullopt;
+  return shot->ray;
 }
 
-/// How the shots of one search are fired.
-struct SiteRays::Accuracy {
-  double first, others;  ///< tolerances of the integrator; the miss of the first shot is that of the guess anyway
-  double last_miss;      ///< as a part of the length (and of y): what one more step makes good
-  bool one_shot;         ///< the first shot may be the last
-};
+std::optional<RayShot> SiteRays::shoot(int site, Polar polar, double tolerance) const {
+  if (!(polar.s > 0.0) || !std::isfinite(polar.s)) return std::nullopt;
+  TraceOptions options;
+  options.stop_at_domain = false;
+  options.tolerance = tolerance;
+  const bool known = site < static_cast<int>(sources_.size());
+  const TracedRay end = known ? sources_[site].end(polar.s, polar.t, options)
+                           : RaySource(surface_, sites_[site]).end(polar.s, polar.t, options);
+  if (end.status != TraceStatus::Converged) return std::nullopt;
+  const SpaceState& at = end.at;
+  const RayShot shot{
+      {site, polar, at.p, at.S, at.tangent, at.normal.cross(at.tangent), at.y, at.dy}, end.jet, end.tolerance};
+  if (!usable(shot.ray)) return std::nullopt;
+  return shot;
+}
 
-namespace {
-// The step that makes the last miss e good leaves e^3.
-constexpr SiteRays::Accuracy kFull = {1e-7, 1e-12, 1e-5, false};
-constexpr SiteRays::Accuracy kRough = {0.1 * kRoughly, 0.1 * kRoughly, 1e-3, true};
-}  // namespace
-
+// What connect() has found is shot once more, to all digits and for the ray's frame at its end.
 std::optional<SiteRay> SiteRays::to(int site, Uv m, std::optional<Polar> guess) const {
-  if (guess && !has_closed_form(surface_)) return shoot_near(site, m, *guess, kFull);
-  const Connection c = connect(surface_, sites_[site], m, guess);
-  if (c.status != ConnectStatus::Converged || !(c.length > 0.0)) return std::nullopt;
-  SiteRay ray{site, {c.length, c.angle}, m, {}, {}, {}, c.y};
-  set_frame(surface_.jet(m), c.end_direction, ray);
-  if (!usable(ray)) return std::nullopt;
-  return ray;
+  if (guess && !closed_form_) return shoot_near(site, m, *guess, kRayTolerance);
+  ConnectOptions options;
+  options.tolerance = kRoughly;
+  const Connection c = connect(surface_, sites_[site], m, guess, options);
+  if (c.status != ConnectStatus::Converged) return std::nullopt;
+  return shoot_near(site, m, {c.length, c.angle}, kRayTolerance, kRoughly);
+}
+
+std::optional<SiteRay> SiteRays::roughly_to(int site, Uv m, std::optional<Polar> guess) const {
+  if (guess && !closed_form_) return shoot_near(site, m, *guess, kRoughly);
+  return to(site, m, guess);
 }
 
 // Only the geodesic next to the guess is of use here, where connect() would go on to look for any other. Shots
 // until the miss is so small that one more step makes it good.
-std::optional<SiteRay> SiteRays::roughly_to(int site, Uv m, std::optional<Polar> guess) const {
-  if (guess && !has_closed_form(surface_)) return shoot_near(site, m, *guess, kRough);
-  return to(site, m, guess);
-}
-
-std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, const Accuracy& accuracy) const {
-  const Xyz target = surface_.position(m);
-  const SurfaceJet at_site = surface_.jet(sites_[site]);
-  double last = std::numeric_limits<double>::infinity();
+std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, double tolerance, double miss_of_guess) const {
+  const SurfaceJet target = surface_.jet(m);
+  const ShotLadder ladder(curvature(site) * aim.s, tolerance);
+  double last = std::numeric_limits<double>::infinity(), asked = ladder.tolerance_for(miss_of_guess);
   for (int i = 0; i < kMostShots && aim.s > 0.0; ++i) {
-    TraceOptions options;
-    options.stop_at_domain = false;
-    options.tolerance = i == 0 ? accuracy.first : accuracy.others;
-    const TraceResult shot = trace_geodesic(surface_, sites_[site], direction_at_angle(at_site, aim.t), aim.s, options);
-    if (shot.status != TraceStatus::Converged) return std::nullopt;
-    SiteRay ray{site, aim, shot.end.p, {}, {}, {}, shot.end.y};
-    set_frame(surface_.jet(shot.end.p), shot.end.d, ray);
-    const double miss = (target - ray.x).norm();
-    if (!usable(ray) || !(miss < last)) return std::nullopt;
-    const Polar step = second_order_step(ray, shot.end.dy, target);
-    if ((i > 0 || accuracy.one_shot) && miss <= accuracy.last_miss * std::min(aim.s, std::abs(ray.y))) {
-      return moved(ray, step, shot.end.dy, m, target);
-    }
+    const auto shot = shoot(site, aim, asked);
+    if (!shot) return std::nullopt;
+    const SiteRay& ray = shot->ray;
+    const double miss = (target.S - ray.x).norm();
+    if (!(miss < last)) return std::nullopt;
+    if (asked <= tolerance) last = miss;
+    const double relative = miss / std::min(aim.s, std::abs(ray.y));
+    if (relative <= ladder.made_good() && std::min(asked, shot->tolerance) <= tolerance) return moved(ray, m, target);
+    const Polar step = second_order_step(ray, target.S);
     const double k = std::min({1.0, kMostTurn / std::abs(step.t), kMostStretch * aim.s / std::abs(step.s)});
     aim = {aim.s + k * step.s, aim.t + k * step.t};
-    if (i > 0) last = miss;
+    asked = ladder.tolerance_for(k < 1.0 ? relative : ladder.after(relative));
   }
   return std::nullopt;
+}
+
+SiteRay moved(const SiteRay& ray, Uv m, const SurfaceJet& j) {
+  const Polar step = second_order_step(ray, j.S);
+  const Xyz normal = unit_normal(j), n = normal.allFinite() ? normal : ray.T.cross(ray.N);  // none at a pole
+  const Xyz T = ray.T + step.t * ray.dy * ray.N;
+  SiteRay there = ray;
+  there.polar = {ray.polar.s + step.s, ray.polar.t + step.t};
+  there.uv = m;
+  there.x = j.S;
+  there.T = (T - T.dot(n) * n).normalized();
+  there.N = n.cross(there.T);
+  there.y = ray.y + step.s * ray.dy;
+  return there;
 }
 
 Polar carry(const SiteRay& ray, const Xyz& m) {

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 
 #include "geodesic/connect.h"
+#include "support/splines.h"
+#include "surface/forms.h"
 #include "test_faces.h"
 #include "voronoi/vertex_solver.h"
 
@@ -69,6 +71,120 @@ TEST(Bisector, SlopeIsTheDerivativeOfItsCoordinates) {
   EXPECT_NEAR((on->radius() - back->radius()) / (2 * h), d.radius, 1e-6);
   EXPECT_NEAR((on->left.polar.t - back->left.polar.t) / (2 * h), d.left_angle, 1e-6);
   EXPECT_NEAR((on->right.polar.t - back->right.polar.t) / (2 * h), d.right_angle, 1e-6);
+}
+
+/// The distance from the site to the point, from scratch.
+double anew(const Surface& surface, Uv site, Uv m, Polar guess) {
+  ConnectOptions options;
+  options.tolerance = 1e-14;
+  const Connection c = connect(surface, site, m, guess, options);
+  EXPECT_EQ(c.status, ConnectStatus::Converged);
+  return c.length;
+}
+
+double anew(const SiteRays& rays, const SiteRay& ray) {
+  return anew(rays.surface(), rays.site(ray.site), ray.uv, ray.polar);
+}
+
+struct Patch {
+  const char* name;
+  SurfacePtr surface;
+  UvBox box;
+};
+
+std::vector<Patch> patches() {
+  const auto spline = std::make_shared<BSplineSurface>(random_spline(3, 3, 6, false, 5).surface());
+  return {{"wave", std::make_shared<WaveSurface>(UvBox{{-9, 9}, {-9, 9}}), {{-3, 3}, {-3, 3}}},
+          {"torus", std::make_shared<Torus>(Frame{}, 3.0, 1.0), {{0, 6.2}, {0, 6.2}}},
+          {"ellipsoid", std::make_shared<Ellipsoid>(1.0, 0.8, 0.6), {{0, 6.2}, {-1.2, 1.2}}},
+          {"sphere", std::make_shared<Sphere>(Frame{}, 2.0), {{0, 6.2}, {-1.2, 1.2}}},
+          {"spline with knots", spline, {{1, 5}, {1, 5}}}};
+}
+
+constexpr double kEquidistance = 1e-12;
+
+TEST(VertexSolver, IsEquallyFarFromThreeSitesOnEverySurface) {
+  for (const Patch& patch : patches()) {
+    Uniform random(11);
+    int found = 0;
+    for (const double size : {0.02, 0.1, 0.4}) {
+      for (int i = 0; i < 20; ++i) {
+        const Uv m = random.in(patch.box);
+        const SurfaceJet j = patch.surface->jet(m);
+        std::vector<Uv> sites;
+        for (int k = 0; k < 3; ++k) {
+          const UvVec d = direction_at_angle(j, 2.1 * k + random());
+          sites.push_back(m + size * (0.7 + 0.6 * random()) * d);
+        }
+        const SiteRays rays(*patch.surface, sites);
+        std::array<PolarGuess, 3> guess;
+        for (int k = 0; k < 3; ++k) {
+          const SurfaceJet at = patch.surface->jet(sites[k]);
+          guess[k] = {k, angle_of_direction(at, m - sites[k])};
+        }
+        const auto v = solve_vertex(rays, guess, size);
+        if (!v) continue;
+        ++found;
+        for (const SiteRay& r : *v) {
+          EXPECT_NEAR(anew(rays, r), r.polar.s, kEquidistance * r.polar.s) << patch.name << " " << size << " " << i;
+          EXPECT_NEAR((rays.at(r.site, r.polar)->x - r.x).norm(), 0.0, 2.0 * kEquidistance * r.polar.s) << patch.name;
+        }
+      }
+    }
+    EXPECT_EQ(found, 60) << patch.name;
+  }
+}
+
+TEST(Bisector, IsExactWhateverThePredictorIsSaidToBe) {
+  for (const Patch& patch : patches()) {
+    Uniform random(12);
+    for (const double size : {0.05, 0.3}) {
+      for (int i = 0; i < 20; ++i) {
+        const Uv p = random.in(patch.box);
+        const std::vector<Uv> sites = {p, p + 2.0 * size * direction_at_angle(patch.surface->jet(p), 6.0 * random())};
+        const SiteRays rays(*patch.surface, sites);
+        const Uv place = lerp(sites[0], sites[1], 0.5) + 0.3 * (random() - 0.5) * (sites[1] - sites[0]);
+        const auto left = rays.to(0, place), right = rays.to(1, place);
+        ASSERT_TRUE(left && right) << patch.name;
+        const BisectorPoint guess{*left, *right};
+        const Xyz t = guess.tangent();
+        for (const double miss : {0.3, 1e-3, 1e-6}) {
+          const auto m = correct_bisector(rays, 0, 1, coordinates(guess), {t, t.dot(left->x) + 0.2 * size}, miss);
+          ASSERT_TRUE(m) << patch.name;
+          EXPECT_NEAR(anew(rays, m->left), m->radius(), kEquidistance * m->radius()) << patch.name << " " << miss;
+          EXPECT_NEAR(anew(rays, m->right), m->radius(), kEquidistance * m->radius()) << patch.name << " " << miss;
+          EXPECT_NEAR(t.dot(m->position() - left->x), 0.2 * size, kEquidistance);
+        }
+      }
+    }
+  }
+}
+
+// Behind a bump the two branches of a site's cut locus by symmetry meet on the axis: down to its free end, where they
+// become one and the radius is that of the first conjugate point.
+TEST(Bisector, FollowsACutLocusToSmallAngles) {
+  const GaussianBumps bump({{{0.0, 0.0}, 3.0, 0.3}}, {{-4, 4}, {-4, 4}});
+  const std::vector<Uv> sites = {{1.2, 0.0}};
+  const SiteRays rays(bump, sites);
+  // Shots at small angles to the axis cross it behind the bump: the point of the cut locus with that angle.
+  for (const double angle : {0.3, 0.1, 0.03, 0.01, 3e-3}) {
+    double s = 1.0;
+    while (rays.at(0, {s, kPi - angle})->x.y() > 0.0) s += 0.01;
+    for (int i = 0; i < 8; ++i) {
+      const auto ray = rays.at(0, {s, kPi - angle});
+      s -= ray->x.y() / ray->T.y();
+    }
+    const auto ray = rays.at(0, {s, kPi - angle});
+    ASSERT_NEAR(ray->x.y(), 0.0, 1e-13);
+    const double off = 1e-3 * angle;
+    const auto m = correct_bisector(rays, 0, 0, {s * (1.0 + off * angle), kPi + angle + off, kPi - angle + off},
+                                    {Xyz::UnitX(), ray->x.x()});
+    ASSERT_TRUE(m) << angle;
+    EXPECT_NEAR(m->position().y(), 0.0, 1e-12) << angle;
+    EXPECT_NEAR(m->radius(), s, 1e-12 * s) << angle;
+    EXPECT_NEAR(wrap_angle(m->left.polar.t - kPi), angle, 1e-12 / angle / angle) << angle;
+    EXPECT_NEAR(wrap_angle(m->right.polar.t - kPi), -angle, 1e-12 / angle / angle) << angle;
+  }
 }
 
 TEST(VertexSolver, FindsTheCircumcentreOnAPlane) {
