@@ -11,8 +11,9 @@ namespace geovor {
 namespace {
 
 // A segment of the border is taken in parts that are seen from the site under no more than about this angle, but none
-// shorter than a part of the segment: the border may run through the site. Five nodes leave 1e-9 of such a part.
-constexpr double kBorderPart = 0.5;
+// shorter than a part of the segment: the border may run through the site. Five nodes leave 1e-9 of such a part,
+// also behind a bump, where y changes faster than the distance.
+constexpr double kBorderPart = 0.2;
 constexpr double kShortestPart = 1e-3;
 constexpr int kNodes = 5;
 
@@ -23,7 +24,7 @@ class Walker {
   /// The ray to the place next to the last one; without one, the shortest.
   bool step_to(Uv m);
   void start_with(const SiteRay& ray) { last_ = ray; }
-  void segment(Uv a, Uv b);
+  void segment(const FaceBorder& border, int cycle, int k, Interval part_of_it);
   const std::optional<SiteRay>& last() const { return last_; }
   ChartPiece& seen() { return seen_; }
 
@@ -52,20 +53,22 @@ bool Walker::step_to(Uv m) {
 
 // A segment's slope in t is its way along N divided by y. Parts are as long as a fraction of the distance to the site,
 // which changes no faster than they go on.
-void Walker::segment(Uv a, Uv b) {
+void Walker::segment(const FaceBorder& border, int cycle, int k, Interval f) {
   const GaussRule& rule = gauss_legendre(kNodes);
-  const UvVec way = b - a;
-  const double length = norm(rays_.surface().jet(lerp(a, b, 0.5)), way);
-  for (double done = 0.0; done < 1.0 && seen_.found;) {
+  const Surface& surface = rays_.surface();
+  const double length =
+      norm(surface.jet(border.uv_in_segment(cycle, k, f.middle())), border.direction({cycle, k + f.middle()}));
+  for (double done = f.lo; done < f.hi && seen_.found;) {
     const double off = last_ ? last_->polar.s : length;
-    const double part = std::min(1.0 - done, std::max(kBorderPart * off / length, kShortestPart));
-    for (int k = 0; k < kNodes; ++k) {
-      const Uv m = lerp(a, b, done + 0.5 * (1.0 + rule.nodes[k]) * part);
+    const double part = std::min(f.hi - done, std::max(kBorderPart * off / length, kShortestPart));
+    for (int i = 0; i < kNodes; ++i) {
+      const double at = done + 0.5 * (1.0 + rule.nodes[i]) * part;
+      const Uv m = border.uv_in_segment(cycle, k, at);
       seen_.found = step_to(m);
       if (!seen_.found) return;
-      const RayEnd end = trace_ray(rays_.surface(), rays_.site(site_), last_->polar, RayParts::WithSector);
-      const Xyz along = push_forward(rays_.surface().jet(m), way);
-      seen_.area += 0.5 * rule.weights[k] * part * last_->N.dot(along) / last_->y * end.sector;
+      const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, RayParts::WithSector);
+      const Xyz along = push_forward(surface.jet(m), border.direction({cycle, k + at}));
+      seen_.area += 0.5 * rule.weights[i] * part * last_->N.dot(along) / last_->y * end.sector;
     }
     done += part;
   }
@@ -86,22 +89,26 @@ std::optional<Polar> known_at(const VoronoiDiagram& d, int vertex, bool leaving)
 
 }  // namespace
 
-BorderWalk walk_border(const SiteRays& rays, const VoronoiDiagram& diagram, int site, const CellPiece& piece) {
+BorderWalk walk_border(const SiteRays& rays, const FaceBorder& border, const VoronoiDiagram& diagram, int site,
+                       const CellPiece& piece) {
+  const auto parameter = [&](int vertex) { return vertex < 0 ? 0.0 : diagram.vertices[vertex].border_parameter; };
+  const int cycle = piece.border_cycle, segments = border.segment_count(cycle);
+  const double from = parameter(piece.from_vertex);
+  double to = parameter(piece.to_vertex);
+  if (!(to > from)) to += segments;
   Walker walker(rays, site);
   ChartPiece& seen = walker.seen();
-  const auto& line = piece.border_uv;
-  auto leaving = known_at(diagram, piece.from_vertex, true);
-  if (const auto ray = line.empty() ? std::nullopt : rays.to(site, line.front(), leaving)) walker.start_with(*ray);
-  seen.found = line.size() > 1;
+  seen.found = to > from;
+  const auto leaving = known_at(diagram, piece.from_vertex, true);
+  if (const auto ray = rays.to(site, border.uv({cycle, from}), leaving)) walker.start_with(*ray);
   if (walker.last()) seen.first = walker.last()->polar;
-  for (std::size_t i = 0; i + 1 < line.size() && seen.found; ++i) {
-    const UvVec way = line[i + 1] - line[i], rest = nearest_copy(rays.surface(), line[i], line[i + 1]);
-    const bool over_seam = !(std::hypot(rest.u, rest.v) > 0.5 * std::hypot(way.u, way.v));
-    if (!over_seam) walker.segment(line[i], line[i + 1]);
+  for (double k = std::floor(from); k < to && seen.found; k += 1.0) {
+    const Interval part = {std::max(from - k, 0.0), std::min(to - k, 1.0)};
+    walker.segment(border, cycle, static_cast<int>(k) % segments, part);
   }
   BorderWalk out;
   auto arriving = known_at(diagram, piece.to_vertex, false);
-  if (seen.found && walker.step_to(line.back())) {
+  if (seen.found && walker.step_to(border.uv({cycle, to < segments ? to : to - segments}))) {
     if (!arriving && leaving == std::nullopt) arriving = seen.first;
     seen.last = walker.last()->polar;
     if (arriving && arriving->s > 0.0) out.arrival_gap = gap_between(*walker.last(), *arriving);

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "voronoi/edge_walk.h"
+#include "voronoi/face_border.h"
 #include "voronoi/site_ray.h"
 
 namespace geovor {
 
-/// The stretch is the polyline of the parameter plane that the diagram holds. The ray is carried on from place to
+/// The stretch runs along the true border between the two vertices. The ray is carried on from place to
 /// place: from the vertex at the start, or, around a whole cycle, from where the shortest geodesic ends. `arrival_gap`:
 /// how far, in space and in length, relative to the radius, the ray at the end lies from the one by which the vertex
 /// there knows the site (or from the first one, around a whole cycle).
@@ -14,6 +15,7 @@ struct BorderWalk {
   ChartPiece seen;
   double arrival_gap = 0.0;
 };
-BorderWalk walk_border(const SiteRays& rays, const VoronoiDiagram& diagram, int site, const CellPiece& piece);
+BorderWalk walk_border(const SiteRays& rays, const FaceBorder& border, const VoronoiDiagram& diagram, int site,
+                       const CellPiece& piece);
 
 }  // namespace geovor

@@ -4,8 +4,8 @@
 
 namespace geovor {
 
-void measure_cells(const Surface& surface, VoronoiDiagram& diagram) {
-  const DiagramCharts charts = chart_cells(surface, diagram);
+void measure_cells(const FaceDomain& domain, VoronoiDiagram& diagram) {
+  const DiagramCharts charts = chart_cells(domain, diagram);
   for (std::size_t i = 0; i < diagram.cells.size(); ++i) diagram.cells[i].area = charts.cells[i].area;
 }
 

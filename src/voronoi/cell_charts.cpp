@@ -25,8 +25,12 @@ constexpr double kInside = 1.0 - 1e-6;
 
 class Charter {
  public:
-  Charter(const Surface& surface, const VoronoiDiagram& diagram)
-      : surface_(surface), diagram_(diagram), sites_(places(diagram)), rays_(surface, sites_) {}
+  Charter(const FaceDomain& domain, const VoronoiDiagram& diagram)
+      : surface_(domain.surface()),
+        diagram_(diagram),
+        sites_(places(diagram)),
+        rays_(surface_, sites_),
+        border_(domain) {}
 
   DiagramCharts charts();
 
@@ -46,6 +50,7 @@ class Charter {
   const VoronoiDiagram& diagram_;
   std::vector<Uv> sites_;
   SiteRays rays_;
+  FaceBorder border_;
 };
 
 void Charter::add_piece(const ChartPiece& seen, CellChart& out) const {
@@ -59,17 +64,19 @@ void Charter::add_piece(const ChartPiece& seen, CellChart& out) const {
 void Charter::add_loop(int site, const std::vector<CellPiece>& loop, const std::vector<EdgeWalk>& edges,
                        CellChart& out) const {
   std::vector<ChartPiece> pieces;
+  const double before = out.area;
   for (const CellPiece& piece : loop) {
     if (piece.edge >= 0) {
       pieces.push_back(edges[piece.edge].seen[piece.reversed ? 1 : 0]);
       out.back = std::max(out.back, pieces.back().back);
     } else {
-      const BorderWalk walk = walk_border(rays_, diagram_, site, piece);
+      const BorderWalk walk = walk_border(rays_, border_, diagram_, site, piece);
       pieces.push_back(walk.seen);
       out.corner_gap = std::max(out.corner_gap, walk.arrival_gap);
     }
     add_piece(pieces.back(), out);
   }
+  out.loop_areas.push_back(out.area - before);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Polar &a = pieces[i].last, &b = pieces[(i + 1) % pieces.size()].first;
     if (!(a.s > 0.0 && b.s > 0.0)) continue;  // the site itself is the corner
@@ -138,8 +145,8 @@ DiagramCharts Charter::charts() {
 
 }  // namespace
 
-DiagramCharts chart_cells(const Surface& surface, const VoronoiDiagram& diagram) {
-  return Charter(surface, diagram).charts();
+DiagramCharts chart_cells(const FaceDomain& domain, const VoronoiDiagram& diagram) {
+  return Charter(domain, diagram).charts();
 }
 
 }  // namespace geovor

@@ -3,20 +3,22 @@
 
 #include <vector>
 
+#include "brep/face_domain.h"
 #include "voronoi/edge_walk.h"
 
 namespace geovor {
 
 /// A cell's border in the polar chart of its site, all loops together.
 struct CellChart {
-  bool found = false;         ///< every ray to its border could be followed
-  double area = 0.0;          ///< integral of y ds dt over what the loops enclose; NaN unless found
-  double turn = 0.0;          ///< of the loops around the site, counter-clockwise, corners included
-  double back = 0.0;          ///< largest step clockwise along an edge (see ChartPiece)
-  double corner_gap = 0.0;    ///< largest jump of the ray where one piece follows another, relative to the radius
-  double least_y = 1.0;       ///< smallest y / radius along the border
-  double nearest = 0.0;       ///< of the border's places that were looked at, to the site
-  double conjugate_at = 0.0;  ///< on one ray to the border: first conjugate point, part of the radius; 0: none
+  bool found = false;              ///< every ray to its border could be followed
+  double area = 0.0;               ///< integral of y ds dt over what the loops enclose; NaN unless found
+  std::vector<double> loop_areas;  ///< of which it is the sum: negative where a loop goes around a hole
+  double turn = 0.0;               ///< of the loops around the site, counter-clockwise, corners included
+  double back = 0.0;               ///< largest step clockwise along an edge (see ChartPiece)
+  double corner_gap = 0.0;         ///< largest jump of the ray where one piece follows another, relative to the radius
+  double least_y = 1.0;            ///< smallest y / radius along the border
+  double nearest = 0.0;            ///< of the border's places that were looked at, to the site
+  double conjugate_at = 0.0;       ///< on one ray to the border: first conjugate point, part of the radius; 0: none
 };
 
 struct DiagramCharts {
@@ -26,6 +28,6 @@ struct DiagramCharts {
 
 /// Each ray is traced from its polar coordinates alone, once for each site that it belongs to. A cell without loops, a
 /// whole closed surface, is taken as far as the rays' first conjugate points.
-DiagramCharts chart_cells(const Surface& surface, const VoronoiDiagram& diagram);
+DiagramCharts chart_cells(const FaceDomain& domain, const VoronoiDiagram& diagram);
 
 }  // namespace geovor

@@ -52,8 +52,7 @@ Certificate certify(const FaceDomain& domain, const VoronoiDiagram& diagram, con
 
 /// Radial lengths on both sides of an edge, relative.
 inline constexpr double kEquidistance = 1e-12;
-/// The areas of the cells together against that of the face, relative; what the flattened border of the face may take
-/// of it, and the error of the face's own area, are added.
+/// The areas of the cells together against that of the face, relative; the error of the face's own area is added.
 inline constexpr double kAreasAddUp = 1e-6;
 
 }  // namespace geovor

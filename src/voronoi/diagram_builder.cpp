@@ -323,7 +323,7 @@ VoronoiDiagram build_diagram(const FaceDomain& domain, const std::vector<Uv>& si
   const double tolerance = options.tolerance > 0.0 ? options.tolerance : kDefaultTolerance * face_size(domain);
   VoronoiDiagram diagram = DiagramBuilder(domain, sites, tolerance).build();
   if (!options.measure) return diagram;
-  measure_cells(domain.surface(), diagram);
+  measure_cells(domain, diagram);
   recompute_residuals(domain.surface(), diagram);
   warn_of_paths_that_leave(domain, diagram);
   return diagram;

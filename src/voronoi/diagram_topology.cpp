@@ -40,7 +40,9 @@ class Inspector {
 
   std::string vertex_fault(int i) const {
     const DiagramVertex& v = d_.vertices[i];
-    const std::size_t wanted = v.on_boundary ? v.sites.size() - 1 : v.sites.size();
+    // Where all rays of the only site of a closed surface meet there is a vertex by itself.
+    const bool alone = v.sites.size() == 1 && d_.edges.empty();
+    const std::size_t wanted = alone ? 0 : v.on_boundary ? v.sites.size() - 1 : v.sites.size();
     if (v.sites.empty() || v.angles.size() != v.sites.size()) return "sites and angles differ in number";
     if (v.spokes.size() != wanted) return "a wrong number of spokes";
     for (std::size_t k = 0; k < v.spokes.size(); ++k) {

@@ -17,11 +17,15 @@ using Plane2 = Eigen::Vector2d;
 
 // A middle whose rays end this far apart, relative to the radius, is made a station of its own, and what is left is
 // halved; else one correction leaves the square.
-constexpr double kHalve = 1e-5;
+constexpr double kHalve = 1e-6;
 constexpr int kDeepest = 8;
 
 // Nearer to a conjugate point (y / radius) than this, angles can't be had from places.
 constexpr double kConjugate = 1e-5;
+
+// Stored points are walked over in stretches no longer than this part of the radius, and seen from either site under no
+// more than this angle: Simpson's rule then leaves less than 1e-7 of the area.
+constexpr double kStretch = 0.25;
 
 // The place between two points is corrected until it changes by less than this part of the radius.
 constexpr double kSettled = 1e-13;
@@ -51,6 +55,10 @@ class Walker {
 
  private:
   Station stored(const EdgePoint& p) const;
+  Station ends_at(const EdgePoint& p) const;
+  void stretch(const Station& a, const Station& b, bool to_free_end);
+  bool ends_stretch(int i, const Station& start, const EdgePoint& next) const;
+  bool free_end(int vertex) const { return vertex >= 0 && diagram_.vertices[vertex].sites.size() == 1; }
   Station at(Polar left, Polar right) const;
   void complete(Station& s) const;
   bool found(const Station& s) const { return s.rays[0].found && s.rays[1].found; }
@@ -71,6 +79,7 @@ class Walker {
   EdgeWalk out_;
   double worst_ = 0.0;
   bool complete_ = true;
+  bool looked_between_ = false;
 };
 
 Station Walker::at(Polar left, Polar right) const {
@@ -82,6 +91,15 @@ Station Walker::at(Polar left, Polar right) const {
 }
 
 Station Walker::stored(const EdgePoint& p) const { return at({p.radius, p.left_angle}, {p.radius, p.right_angle}); }
+
+/// The rays' ends alone.
+Station Walker::ends_at(const EdgePoint& p) const {
+  Station s;
+  s.rays[0] = trace_ray(surface_, diagram_.sites[edge_.left].uv, {p.radius, p.left_angle});
+  s.rays[1] = trace_ray(surface_, diagram_.sites[edge_.right].uv, {p.radius, p.right_angle});
+  for (const RayEnd& ray : s.rays) s.regular = s.regular && std::abs(ray.y) > kConjugate * ray.polar.s;
+  return s;
+}
 
 void Walker::complete(Station& s) const {
   const BisectorPoint m{site_ray(edge_.left, s.rays[0]), site_ray(edge_.right, s.rays[1])};
@@ -166,8 +184,6 @@ void Walker::go(const Station& a, const Station& b, int depth) {
     }
   }
   out_.jump = std::max(out_.jump, std::isfinite(gap) ? gap : 1.0);
-  note_turn(a, m);
-  note_turn(m, b);
   add_area(a, m, b, h);
 }
 
@@ -222,8 +238,6 @@ void Walker::go_to_free_end(const Station& a, const Station& b) {
     complete_ = false;
     return;
   }
-  note_turn(a, m);
-  note_turn(m, b);
   for (int side = 0; side < 2; ++side) {
     const double sum = a.rays[side].sector + 4.0 * m.rays[side].sector + b.rays[side].sector;
     out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * turn[side] / 6.0;
@@ -256,28 +270,44 @@ void Walker::finish() {
   std::swap(out_.seen[1].first, out_.seen[1].last);
 }
 
+void Walker::stretch(const Station& a, const Station& b, bool to_free_end) {
+  const Xyz way = b.rays[0].x - a.rays[0].x;
+  if (to_free_end || !a.regular || !b.regular) {
+    go_to_free_end(a, b);
+    return;
+  }
+  out_.left_is_left = out_.left_is_left && (a.tangent + b.tangent).dot(way) >= 0.0;
+  if (!looked_between_) look_between(a, b);
+  looked_between_ = true;
+  go(a, b, 0);
+}
+
+/// Whether point i has to end a stretch that begins at `start`, because the next point would be too far.
+bool Walker::ends_stretch(int i, const Station& start, const EdgePoint& next) const {
+  const int last = static_cast<int>(edge_.points.size()) - 1;
+  if (i == last || (i + 1 == last && free_end(edge_.to)) || (i == 1 && free_end(edge_.from))) return true;
+  const double turn = std::max(std::abs(wrap_angle(next.left_angle - start.rays[0].polar.t)),
+                               std::abs(wrap_angle(next.right_angle - start.rays[1].polar.t)));
+  return !(turn <= kStretch && (next.xyz - start.rays[0].x).norm() <= kStretch * start.radius());
+}
+
 EdgeWalk Walker::walk() {
-  const auto free_end = [this](int vertex) { return vertex >= 0 && diagram_.vertices[vertex].sites.size() == 1; };
-  const int count = static_cast<int>(edge_.points.size());
-  Station last = stored(edge_.points[0]);
-  if (found(last)) note_stored(edge_.points[0], last);
-  out_.seen[1].last_y = last.rays[1].y;
+  const auto& points = edge_.points;
+  const int count = static_cast<int>(points.size());
+  Station start = stored(points[0]), last = start;
+  out_.seen[1].last_y = start.rays[1].y;
+  complete_ = found(start);
+  if (complete_) note_stored(points[0], start);
   for (int i = 1; i < count && complete_; ++i) {
-    const Station next = stored(edge_.points[i]);
-    if (!found(last) || !found(next)) {
-      complete_ = false;
-      break;
-    }
-    note_stored(edge_.points[i], next);
-    const Xyz way = edge_.points[i].xyz - edge_.points[i - 1].xyz;
-    if (last.regular && next.regular) {
-      out_.left_is_left = out_.left_is_left && (last.tangent + next.tangent).dot(way) >= 0.0;
-    }
-    if ((i == 1 && free_end(edge_.from)) || (i + 1 == count && free_end(edge_.to)) || !last.regular || !next.regular) {
-      go_to_free_end(last, next);
-    } else {
-      if (i == count / 2) look_between(last, next);
-      go(last, next, 0);
+    const bool end = ends_stretch(i, start, points[std::min(i + 1, count - 1)]);
+    const Station next = end ? stored(points[i]) : ends_at(points[i]);
+    complete_ = found(next);
+    if (!complete_) break;
+    note_stored(points[i], next);
+    note_turn(last, next);
+    if (end) {
+      stretch(start, next, (i == 1 && free_end(edge_.from)) || (i + 1 == count && free_end(edge_.to)));
+      start = next;
     }
     last = next;
   }

@@ -79,17 +79,17 @@ RayEnd trace_ray(const Surface& surface, Uv site, Polar to, RayParts parts) {
     return states.empty() ? ray : end_of(states.back(), to);
   }
   double last = std::numeric_limits<double>::quiet_NaN();
-  for (int pieces = 2; pieces <= kMostPieces; pieces *= 2) {
+  for (int pieces = 2; pieces <= kMostPieces;) {
     const auto states = states_along(surface, site, to, pieces);
-    if (static_cast<int>(states.size()) < pieces) return ray;
+    if (static_cast<int>(states.size()) < pieces) return {};
     const SectorRules sum = integrate_y(states, to.s);
     ray = end_of(states.back(), to);
     ray.sector = sum.high;
-    // Across knots the orders don't show: there doubling must change nothing.
-    const bool settled = std::abs(sum.high - sum.low) <= kOrdersAgree * std::abs(sum.high) ||
-                         std::abs(sum.high - last) <= 0.01 * kOrdersAgree * std::abs(sum.high);
-    if (settled) break;
+    const double excess = std::abs(sum.high - sum.low) / (kOrdersAgree * std::abs(sum.high));
+    // Across knots the orders don't show: there more pieces must change nothing.
+    if (excess <= 1.0 || std::abs(sum.high - last) <= 0.01 * kOrdersAgree * std::abs(sum.high)) break;
     last = sum.high;
+    pieces *= excess > 16.0 ? 4 : 2;  // the difference goes like the fourth power of the pieces
   }
   return ray;
 }
