@@ -9,8 +9,8 @@
 #include <Interface_Check.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Reader.hxx>
-#include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDF_Label.hxx>
@@ -176,7 +176,7 @@ void load_step_shape(const std::string& path, LoadedShape& loaded) {
 
 /// The reader with names and colours first; a file that trips it up is read for its shape alone.
 LoadedShape load_step(const std::string& path) {
-  STEPControl_Controller::Init();
+  STEPCAFControl_Controller::Init();  // defines the parameter of the face names, which could not be set before
   const StaticParameter millimetres("xstep.cascade.unit", "MM");
   const StaticParameter face_names("read.stepcaf.subshapes.name", "1");
   LoadedShape loaded;

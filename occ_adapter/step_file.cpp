@@ -1,13 +1,18 @@
 // The part of writing STEP that is the same for meshes and curves: units, header, names, and a file that is complete or
 // absent.
 #include <APIHeaderSection_MakeHeader.hxx>
+#include <STEPConstruct.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <Transfer_FinderProcess.hxx>
+#include <XSControl_TransferWriter.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <filesystem>
 #include <fstream>
 
@@ -41,6 +46,11 @@ void transfer(STEPControl_Writer& writer, const NamedShape& named) {
   for (int i = before + 1; i <= writer.Model()->NbEntities(); ++i) {
     const auto product = Handle(StepBasic_Product)::DownCast(writer.Model()->Value(i));
     if (!product.IsNull()) product->SetName(text(named.name)), product->SetId(text(named.name));
+  }
+  const Handle(Transfer_FinderProcess) made = writer.WS()->TransferWriter()->FinderProcess();
+  for (const auto& [part, name] : named.parts) {
+    const Handle(StepRepr_RepresentationItem) item = STEPConstruct::FindEntity(made, part);
+    if (!item.IsNull()) item->SetName(text(name));
   }
 }
 
@@ -88,8 +98,7 @@ void write_step_file(const StepFile& file, const std::function<std::vector<Named
       const StaticParameter model_unit("xstep.cascade.unit", length_unit);
       const StaticParameter file_unit("write.step.unit", length_unit);
       const StaticParameter schema("write.step.schema", "AP214IS");
-      // Planes and lines need no curves in the parameter plane, and without them the file is half as long.
-      const StaticParameter no_pcurves("write.surfacecurve.mode", "0");
+      const StaticParameter pcurves("write.surfacecurve.mode", file.pcurves ? "1" : "0");
       write_shapes(shapes(), file, beside);
     });
     fs::rename(beside, file.path, failed);

@@ -14,7 +14,9 @@
 #include "face_list.h"
 #include "io/diagram_svg.h"
 #include "occ_adapter/read_cad.h"
+#include "occ_adapter/write_cells.h"
 #include "outputs.h"
+#include "pipeline/cad_cells.h"
 #include "pipeline/voronoi_face.h"
 #include "sites_file.h"
 #include "stopwatch.h"
@@ -63,12 +65,17 @@ VoronoiResult compute(const CadModel& model, const CadFace& face, const VoronoiA
   }
 }
 
-void write_outputs(const VoronoiArguments& arguments, const DocumentSource& source, const VoronoiResult& result) {
+void write_outputs(const VoronoiArguments& arguments, const CadModel& model, const CadFace& face,
+                   const VoronoiResult& result) {
+  const DocumentSource source = document_source(model, face, result.parameters);
   StagedOutputs outputs;
   for (const std::string& path : arguments.outputs) {
     outputs.add(path, [&](const std::string& place) {
       if (ending(path) == ".json") {
         write_diagram_json(source, result.diagram, result.dual, place);
+      } else if (ending(path).starts_with(".st")) {
+        const CadSheet sheet = cad_cells(model, face, result.diagram, result.deflection);
+        write_step(sheet, {arguments.input, face.number, model.unit}, place);
       } else {
         write_diagram_svg(result.diagram, result.dual, result.raster, place);
       }
@@ -142,7 +149,7 @@ int run(const VoronoiArguments& arguments) {
         fmt::format("{}: {}: the diagram of these sites could not be finished; more sites, or other ones, may mend it",
                     model.file, face_label(face.number)));
   }
-  write_outputs(arguments, document_source(model, face, result.parameters), result);
+  write_outputs(arguments, model, face, result);
   const bool complete = name_failure(model, face, result.diagram);
   print_summary(model, face, result);
   fmt::print("{:<17} read {:.2f}, diagram {:.2f}, write {:.2f}\n", "seconds", seconds_read, seconds_diagram,

@@ -92,6 +92,7 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   check_areas(domain, result.face_area, result.diagram);
   result.dual = dual_of(domain.surface(), result.diagram);
   result.surface = face.surface;
+  result.deflection = deflection;
   result.parameters = domain.box();
   result.raster = raster_of_cells(domain, result.diagram, kRasterRows, kRasterColumns);
   return result;

@@ -30,6 +30,7 @@ struct VoronoiResult {
   SurfacePtr surface;
   UvBox parameters;  ///< the rectangle around the face
   double face_area = 0.0;
+  double deflection = 0.0;  ///< of the face's border, as the diagram was built on it
   CellRaster raster;  ///< for pictures
 };
 
