@@ -7,7 +7,6 @@
 #include "brep/face_domain.h"
 #include "pipeline/face_point.h"
 #include "voronoi/diagram_builder.h"
-#include "voronoi/lattice.h"
 #include "voronoi/place_sites.h"
 
 namespace geovor {
@@ -37,7 +36,7 @@ Uv locate(const FaceDomain& domain, int index, const Xyz& x, double tolerance, b
   }
 }
 
-std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request, double tolerance) {
+std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request, double area, double tolerance) {
   std::vector<Uv> sites;
   for (int i = 0; i < static_cast<int>(request.sites.size()); ++i) {
     if (const Uv* uv = std::get_if<Uv>(&request.sites[i])) {
@@ -47,19 +46,17 @@ std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request
     }
   }
   if (!sites.empty()) return sites;
-  int count = request.count;
-  if (count == 0 && request.spacing > 0.0) {
+  if (request.count == 0 && request.spacing > 0.0) {
     // A hexagonal arrangement with this distance between neighbours.
     const double cell = 0.5 * std::numbers::sqrt3 * request.spacing * request.spacing;
-    const double wanted = rough_area(domain) / cell;
     constexpr double kMostSites = 1e6;
-    if (!(wanted <= kMostSites)) {
+    if (!(area <= kMostSites * cell)) {
       throw Error(ErrorCode::Usage, "the spacing asks for more than a million sites; give a larger --spacing");
     }
-    count = std::max(1, static_cast<int>(std::lround(wanted)));
+    return place_sites_apart(domain, request.spacing, request.seed);
   }
-  if (count <= 0) throw Error(ErrorCode::Usage, "no sites; give some, or a positive number of them");
-  return place_sites(domain, count, request.seed);
+  if (request.count <= 0) throw Error(ErrorCode::Usage, "no sites; give some, or a positive number of them");
+  return place_sites(domain, request.count, request.seed);
 }
 
 void check_areas(const FaceDomain& domain, double face_area, VoronoiDiagram& diagram) {
@@ -83,12 +80,12 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   const FaceDomain domain(model, face, deflection);
   const double tolerance = printed_tolerance(domain, face);
   VoronoiResult result;
-  const std::vector<Uv> sites = sites_of(domain, request, tolerance);
+  result.face_area = face_area(model, face).value;
+  const std::vector<Uv> sites = sites_of(domain, request, result.face_area, tolerance);
   check_sites(domain, sites, tolerance);
   VoronoiOptions options;
   options.tolerance = request.tolerance;
   result.diagram = build_diagram(domain, sites, options);
-  result.face_area = face_area(model, face).value;
   check_areas(domain, result.face_area, result.diagram);
   result.dual = dual_of(domain.surface(), result.diagram);
   result.surface = face.surface;

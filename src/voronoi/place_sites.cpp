@@ -1,24 +1,42 @@
 #include "voronoi/place_sites.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <queue>
+#include <map>
+#include <numbers>
+#include <string>
 
 #include "base/error.h"
+#include "geodesic/trace.h"
+#include "surface/forms.h"
+#include "voronoi/border_distance.h"
 #include "voronoi/diagram_builder.h"
-#include "voronoi/lattice.h"
-#include "voronoi/site_ray.h"
+#include "voronoi/face_border.h"
+#include "voronoi/far_points.h"
 
 namespace geovor {
 namespace {
 
-// Lattice steps between two neighbouring sites: the more, the nearer the places are to the farthest points.
-constexpr double kStepsPerSpacing = 5.0;
-constexpr double kStepsPerDiagonal = 20.0;
+// Samples of the border are this part of the largest reach apart, so that every cell there has some.
+constexpr double kBorderStep = 0.1;
 
-// Distances that agree to this part are a tie, which the position in space breaks.
-constexpr double kTie = 1e-6;
+// A reach below this part of the face's size is none: two places there would be one site.
+constexpr double kSmallestReach = 1e-6;
+
+// Vertices and stored points are exact whatever the tolerance; nothing is asked of the polylines between them. Part of
+// the face's size.
+constexpr double kCoarse = 0.05;
+
+// The point that the first place is far from lies inside the border by this part of the face's extent; by less, halved
+// so often at most, where the face is narrow there.
+constexpr double kInside = 0.01;
+constexpr int kMostHalvings = 20;
+
+// A grid on which a closed surface is searched for its extreme point, lines in each direction.
+constexpr int kGrid = 64;
 
 /// The generator of Steele, Lea and Flood (2014): a full avalanche of the seed's bits.
 std::uint64_t splitmix64(std::uint64_t x) {
@@ -28,109 +46,160 @@ std::uint64_t splitmix64(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-bool before_in_space(const Xyz& a, const Xyz& b) {
-  for (int k = 0; k < 3; ++k) {
-    if (std::abs(a[k] - b[k]) > kTie * (std::abs(a[k]) + std::abs(b[k]))) return a[k] < b[k];
-  }
-  return false;
+/// A direction of space, uniform over the sphere.
+Xyz direction_of(std::uint64_t seed) {
+  constexpr double kTwoTo64 = 18446744073709551616.0;
+  const std::uint64_t a = splitmix64(seed), b = splitmix64(a);
+  const double z = 2.0 * (static_cast<double>(a) / kTwoTo64) - 1.0;
+  const double turn = 2.0 * std::numbers::pi * (static_cast<double>(b) / kTwoTo64), r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-class FarthestPoints {
- public:
-  explicit FarthestPoints(const FaceDomain& domain, double spacing)
-      : lattice_(domain, spacing, {}),
-        rays_(domain.surface(), sites_),
-        distance_(lattice_.count(), std::numeric_limits<double>::infinity()),
-        known_(lattice_.count()) {
-    for (int node = 0; node < lattice_.count(); ++node) {
-      if (!lattice_.inside(node)) continue;
-      inside_.push_back(node);
-      to_border_.push_back(domain.distance_to_border(lattice_.uv(node)));
+/// From the best point of a grid by Newton's method for <n, Su> = <n, Sv> = 0.
+Uv extreme_of_closed(const Surface& surface, const UvBox& box, const Xyz& n) {
+  Uv best = {box.u.middle(), box.v.middle()};
+  double height = -std::numeric_limits<double>::infinity();
+  for (int j = 0; j < kGrid; ++j) {
+    for (int i = 0; i < kGrid; ++i) {
+      const Uv p = {box.u.lo + box.u.length() * (i + 0.5) / kGrid, box.v.lo + box.v.length() * (j + 0.5) / kGrid};
+      const double h = n.dot(surface.position(p));
+      if (h > height) best = p, height = h;
     }
   }
+  constexpr int kSteps = 8;
+  for (int step = 0; step < kSteps; ++step) {
+    const SurfaceJet j = surface.jet(best);
+    Eigen::Matrix2d H;
+    H << n.dot(j.Suu), n.dot(j.Suv), n.dot(j.Suv), n.dot(j.Svv);
+    const Eigen::Vector2d d = H.fullPivLu().solve(Eigen::Vector2d(n.dot(j.Su), n.dot(j.Sv)));
+    const Uv next = {best.u - d[0], best.v - d[1]};
+    const double there = n.dot(surface.position(next));
+    if (!(there >= height)) break;
+    best = next, height = there;
+  }
+  return best;
+}
 
-  const std::vector<int>& inside() const { return inside_; }
+/// A little inside the point of the border that is extreme in a direction.
+Uv just_inside(const FaceDomain& domain, const BorderDistance& border, const Xyz& n) {
+  const BorderDistance::Gate gate = border.extreme(n);
+  const SurfaceJet j = domain.surface().jet(gate.uv);
+  double way = kInside * n.dot(gate.x - border.extreme(-n).x);
+  for (int i = 0; i < kMostHalvings; ++i, way *= 0.5) {
+    const Uv p = trace_geodesic(domain.surface(), gate.uv, tangent_components(j, gate.inward), way).end.p;
+    if (domain.contains(p)) return p;
+  }
+  return gate.uv;
+}
 
-  /// Makes the node a site and tells all nodes to which it is the nearest.
-  void add(int node) {
-    const int site = static_cast<int>(sites_.size());
-    sites_.push_back(lattice_.uv(node));
-    distance_[node] = 0.0;
-    for (const auto& z : lattice_.neighbours(node)) offer(z.node, rays_.roughly_to(site, z.uv));
-    while (!queue_.empty()) {
-      const Arrival a = queue_.top();
-      queue_.pop();
-      if (a.ray.polar.s > distance_[a.node]) continue;
-      for (const auto& z : lattice_.neighbours(a.node)) {
-        const Polar guess = carry(a.ray, lattice_.xyz(z.node));
-        if (guess.s > 0.0 && guess.s < distance_[z.node] * (1.0 - kTie) && !known(z.node, site, guess)) {
-          offer(z.node, rays_.roughly_to(site, z.uv, guess));
+/// Keeps places of one batch apart: boxes of space of the largest reach.
+class Batch {
+ public:
+  explicit Batch(double largest) : box_(largest) {}
+
+  /// Takes the point unless one that was taken before is nearer than its reach.
+  bool take(const FarPoint& p) {
+    const Key home = key(p.x);
+    Key k;
+    for (k[0] = home[0] - 1; k[0] <= home[0] + 1; ++k[0]) {
+      for (k[1] = home[1] - 1; k[1] <= home[1] + 1; ++k[1]) {
+        for (k[2] = home[2] - 1; k[2] <= home[2] + 1; ++k[2]) {
+          const auto found = boxes_.find(k);
+          if (found == boxes_.end()) continue;
+          for (const Xyz& x : found->second) {
+            if ((x - p.x).norm() < p.reach * (1.0 + FarPoints::kSameReach)) return false;
+          }
         }
       }
     }
+    boxes_[home].push_back(p.x);
+    return true;
   }
 
-  int farthest() const {
-    int best = inside_.front();
-    double score = -1.0;
-    for (size_t i = 0; i < inside_.size(); ++i) {
-      const int node = inside_[i];
-      const double s = std::min(distance_[node], 2.0 * to_border_[i]);
-      const bool tie = std::abs(s - score) <= kTie * score;
-      if (tie ? before_in_space(lattice_.xyz(node), lattice_.xyz(best)) : s > score) best = node, score = s;
+ private:
+  using Key = std::array<long, 3>;
+  Key key(const Xyz& x) const {
+    const auto box = [this](double a) { return std::lround(a / box_); };
+    return {box(x[0]), box(x[1]), box(x[2])};
+  }
+  double box_;
+  std::map<Key, std::vector<Xyz>> boxes_;
+};
+
+class SitePlacer {
+ public:
+  SitePlacer(const FaceDomain& domain, std::uint64_t seed)
+      : domain_(domain),
+        border_(domain),
+        direction_(direction_of(seed)),
+        tie_(direction_of(~seed)),
+        size_(face_size(domain)),
+        largest_(size_) {
+    const BorderDistance border(domain.surface(), border_, kBorderStep * size_);
+    sites_ = {border.empty() ? extreme_of_closed(domain.surface(), domain.box(), direction_)
+                             : just_inside(domain, border, direction_)};
+    const std::vector<FarPoint> far = far_points();
+    if (far.empty()) throw_narrow();
+    sites_ = {domain.to_principal(far.front().uv)};
+  }
+
+  void place(size_t count, double smallest_reach) {
+    while (sites_.size() < count) {
+      const std::vector<FarPoint> far = far_points();
+      if (far.empty() || far.front().reach <= std::max(smallest_reach, kSmallestReach * size_)) {
+        if (smallest_reach > 0.0) return;
+        throw_narrow();
+      }
+      largest_ = far.front().reach;
+      const double least = std::max(smallest_reach, kBatchReach * largest_);
+      Batch batch(largest_);
+      const size_t most = sites_.size() < static_cast<size_t>(kOneByOne) ? sites_.size() + 1 : count;
+      for (const FarPoint& p : far) {
+        if (sites_.size() == std::min(most, count) || p.reach <= least) break;
+        if (batch.take(p)) sites_.push_back(domain_.to_principal(p.uv));
+      }
     }
-    return best;
   }
 
   const std::vector<Uv>& sites() const { return sites_; }
 
  private:
-  struct Arrival {
-    int node;
-    SiteRay ray;
-    bool operator<(const Arrival& other) const {
-      return ray.polar.s != other.ray.polar.s ? ray.polar.s > other.ray.polar.s : node > other.node;
-    }
-  };
-
-  // A node has up to eight neighbours that carry the same geodesic on to it: one of them is enough.
-  bool known(int node, int site, const Polar& guess) const {
-    const auto near = [&](const SiteRay& ray) { return near_guess(ray, site, guess, lattice_.reach(node)); };
-    return std::any_of(known_[node].begin(), known_[node].end(), near);
+  std::vector<FarPoint> far_points() const {
+    VoronoiOptions options;
+    options.tolerance = kCoarse * size_;
+    options.measure = false;
+    const VoronoiDiagram diagram = build_diagram(domain_, sites_, options);
+    const SiteRays rays(domain_.surface(), sites_);
+    const BorderDistance border(domain_.surface(), border_, kBorderStep * largest_);
+    return FarPoints(rays, diagram, border, tie_).points();
   }
 
-  void offer(int node, const std::optional<SiteRay>& ray) {
-    if (!ray) return;
-    auto& known = known_[node];
-    if (!known.empty() && known.front().site != ray->site) known.clear();
-    known.push_back(*ray);
-    if (!(ray->polar.s < distance_[node])) return;
-    distance_[node] = ray->polar.s;
-    queue_.push({node, *ray});
+  [[noreturn]] void throw_narrow() const {
+    throw Error(ErrorCode::Usage,
+                "the face has no room for more than " + std::to_string(sites_.size()) + " sites; ask for fewer");
   }
 
-  FaceLattice lattice_;
+  const FaceDomain& domain_;
+  FaceBorder border_;
+  Xyz direction_, tie_;
+  double size_, largest_;
   std::vector<Uv> sites_;
-  SiteRays rays_;
-  std::vector<double> distance_;             ///< to the nearest site
-  std::vector<std::vector<SiteRay>> known_;  ///< geodesics computed for the last site that reached the node
-  std::vector<int> inside_;
-  std::vector<double> to_border_;
-  std::priority_queue<Arrival> queue_;
 };
 
 }  // namespace
 
 std::vector<Uv> place_sites(const FaceDomain& domain, int count, std::uint64_t seed) {
   if (count <= 0) throw Error(ErrorCode::Usage, "the number of sites must be at least 1");
-  const double per_site = std::sqrt(rough_area(domain) / count);
-  FarthestPoints places(domain, std::min(per_site / kStepsPerSpacing, face_size(domain) / kStepsPerDiagonal));
-  if (static_cast<int>(places.inside().size()) < count) {
-    throw Error(ErrorCode::Usage, "the face is too narrow for " + std::to_string(count) + " sites; ask for fewer");
-  }
-  places.add(places.inside()[splitmix64(seed) % places.inside().size()]);
-  while (static_cast<int>(places.sites().size()) < count) places.add(places.farthest());
-  return places.sites();
+  SitePlacer placer(domain, seed);
+  placer.place(count, 0.0);
+  return placer.sites();
+}
+
+std::vector<Uv> place_sites_apart(const FaceDomain& domain, double spacing, std::uint64_t seed) {
+  if (!(spacing > 0.0)) throw Error(ErrorCode::Usage, "the spacing must be positive");
+  SitePlacer placer(domain, seed);
+  placer.place(std::numeric_limits<int>::max(), kReachOfSpacing * spacing);
+  return placer.sites();
 }
 
 }  // namespace geovor

@@ -1,13 +1,11 @@
-// What sites must fulfil, and places chosen for them.
+// What sites must fulfil.
 #include "voronoi/sites.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "geodesic/distance.h"
 #include "test_faces.h"
-#include "voronoi/place_sites.h"
 
 namespace geovor::testing {
 namespace {
@@ -81,34 +79,6 @@ TEST(CheckSites, FindsTheFirstPairOfAChain) {
     EXPECT_EQ(e.site(), 1);
     EXPECT_EQ(e.other(), 2);
   }
-}
-
-TEST(PlaceSites, SpreadsThemOverTheFace) {
-  const TestFace face = whole(std::make_shared<WaveSurface>(UvBox{{-2, 2}, {-2, 2}}));
-  const FaceDomain domain = face.domain();
-  const auto sites = place_sites(domain, 25, 1);
-  ASSERT_EQ(sites.size(), 25u);
-  EXPECT_NO_THROW(check_sites(domain, sites, 1e-7));
-  double nearest = 1e9;
-  for (size_t i = 0; i < sites.size(); ++i) {
-    for (size_t j = 0; j < i; ++j) {
-      nearest = std::min(nearest, (domain.surface().position(sites[i]) - domain.surface().position(sites[j])).norm());
-    }
-  }
-  // Discs of this diameter about the sites fill at least a third of an area of about 21.
-  EXPECT_GT(nearest, std::sqrt(21.0 / 25 * 4 / kPi / 3));
-}
-
-TEST(PlaceSites, GivesTheSamePlacesForTheSameSeedOnly) {
-  const TestFace face = plane_square();
-  const FaceDomain domain = face.domain();
-  EXPECT_EQ(place_sites(domain, 9, 4), place_sites(domain, 9, 4));
-  EXPECT_NE(place_sites(domain, 9, 4), place_sites(domain, 9, 5));
-}
-
-TEST(PlaceSites, RejectsANumberThatIsNotPositive) {
-  const TestFace face = plane_square();
-  EXPECT_THROW(place_sites(face.domain(), 0, 1), Error);
 }
 
 }  // namespace
