@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -12,11 +14,14 @@
 #include "context.h"
 #include "diagram_json.h"
 #include "face_list.h"
+#include "io/diagram_html.h"
 #include "io/diagram_svg.h"
+#include "io/diagram_vtp.h"
 #include "occ_adapter/read_cad.h"
 #include "occ_adapter/write_cells.h"
 #include "outputs.h"
 #include "pipeline/cad_cells.h"
+#include "pipeline/cell_mesh.h"
 #include "pipeline/voronoi_face.h"
 #include "sites_file.h"
 #include "stopwatch.h"
@@ -65,9 +70,19 @@ VoronoiResult compute(const CadModel& model, const CadFace& face, const VoronoiA
   }
 }
 
+PageFacts page_facts(const CadModel& model, const CadFace& face, const VoronoiResult& result) {
+  const std::string file = std::filesystem::path(model.file).filename().string();
+  return {fmt::format("{} {}: {} sites", file, face_label(face.number), result.diagram.sites.size()), model.unit};
+}
+
 void write_outputs(const VoronoiArguments& arguments, const CadModel& model, const CadFace& face,
                    const VoronoiResult& result) {
   const DocumentSource source = document_source(model, face, result.parameters);
+  std::optional<CellMesh> mesh;
+  const auto cell_mesh = [&]() -> const CellMesh& {
+    if (!mesh) mesh = mesh_of_cells(model, face, result.diagram, result.deflection);
+    return *mesh;
+  };
   StagedOutputs outputs;
   for (const std::string& path : arguments.outputs) {
     outputs.add(path, [&](const std::string& place) {
@@ -76,6 +91,10 @@ void write_outputs(const VoronoiArguments& arguments, const CadModel& model, con
       } else if (ending(path).starts_with(".st")) {
         const CadSheet sheet = cad_cells(model, face, result.diagram, result.deflection);
         write_step(sheet, {arguments.input, face.number, model.unit}, place);
+      } else if (ending(path) == ".vtp") {
+        write_diagram_vtp(result.diagram, cell_mesh(), place);
+      } else if (ending(path) == ".html") {
+        write_diagram_html(result.diagram, cell_mesh(), page_facts(model, face, result), place);
       } else {
         write_diagram_svg(result.diagram, result.dual, result.raster, place);
       }

@@ -15,7 +15,7 @@ namespace geovor {
 namespace {
 
 const std::vector<std::string> kMeshEndings = {".stl", ".step", ".stp", ".obj", ".svg"};
-const std::vector<std::string> kVoronoiEndings = {".json", ".step", ".stp", ".svg"};
+const std::vector<std::string> kVoronoiEndings = {".json", ".step", ".stp", ".svg", ".vtp", ".html"};
 const std::vector<std::string> kDistanceEndings = {".json", ".step", ".stp", ".svg"};
 const std::vector<std::string> kReportEndings = {".json"};
 
