@@ -13,6 +13,7 @@ void bench_jets();
 void bench_geodesics();
 void bench_distances();
 void bench_bisectors();
+void bench_diagrams();
 
 /// OpenCASCADE's D2 of a surface at `points`: of the Geom_BSplineSurface, and of a GeomAdaptor_Surface, which
 /// remembers the span of its last call. None in a build without OpenCASCADE.

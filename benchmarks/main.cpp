@@ -17,7 +17,8 @@ struct Part {
 constexpr Part kParts[] = {{"jets", geovor::bench::bench_jets},
                            {"geodesics", geovor::bench::bench_geodesics},
                            {"distances", geovor::bench::bench_distances},
-                           {"bisectors", geovor::bench::bench_bisectors}};
+                           {"bisectors", geovor::bench::bench_bisectors},
+                           {"diagrams", geovor::bench::bench_diagrams}};
 
 }  // namespace
 
@@ -26,7 +27,8 @@ int main(int argc, char** argv) {
     const bool known = std::any_of(std::begin(kParts), std::end(kParts),
                                    [&](const Part& p) { return argv[i] == std::string(p.name); });
     if (!known) {
-      std::fprintf(stderr, "geovor_bench: no part is called %s; there are jets, geodesics, distances, bisectors\n",
+      std::fprintf(stderr,
+                   "geovor_bench: no part is called %s; there are jets, geodesics, distances, bisectors, diagrams\n",
                    argv[i]);
       return 1;
     }
