@@ -252,20 +252,25 @@ CertificateClaim Examiner::areas() const {
   return claim.done();
 }
 
+std::string digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", x);
+  return text;
+}
+
 std::string Examiner::summary(const Certificate& certificate) const {
   for (const CertificateClaim& c : certificate.claims) {
     if (c.holds) continue;
     const char* kinds[] = {"", "vertex ", "edge ", "cell ", ""};
     const std::string who = c.id >= 0 ? kinds[static_cast<int>(c.offender)] + std::to_string(c.id) + ": " : "";
-    return "not proved: " + c.name + ": " + who + c.why;
+    return "not proved: " + c.name + ": " + who + c.why + " (" + digits(c.measured) + ", allowed " + digits(c.bound) +
+           ")";
   }
   double error = 0.0;
   for (const CertificateClaim& c : certificate.claims)
     if (c.name == "radial lengths") error = c.measured;
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.1e", error);
-  std::string text = std::string("proved: every point of a cell is nearest to the cell's site, up to ") + digits +
-                     " of the distance for each edge crossed";
+  std::string text = std::string("proved: every point of a cell is nearest to the cell's site, up to ") +
+                     digits(error) + " of the distance for each edge crossed";
   if (certificate.not_covered.empty()) return text + "; all shortest paths to it stay in the face";
   return text + ", distances being those of the surface; paths within the face may differ for " +
          std::to_string(certificate.not_covered.size()) + " of " + std::to_string(d_.sites.size()) +

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "brep/face_area.h"
 #include "geodesic/distance.h"
-#include "test_faces.h"
+#include "voronoi/cell_charts.h"
+#include "voronoi/certificate.h"
 
 namespace geovor::testing {
 namespace {
@@ -90,15 +92,28 @@ std::string broken_topology(const VoronoiDiagram& d) {
   return "";
 }
 
-int euler_number(const VoronoiDiagram& d) {
-  int border_pieces = 0, disks = 0;
+std::string unproved(const TestFace& face, const VoronoiDiagram& d) {
+  const Certificate c = certify(face.domain(), d, face_area(face.model, face.model.faces[0]));
+  return c.holds() ? "" : c.result;
+}
+
+int euler_number(const FaceDomain& domain, const VoronoiDiagram& d) {
+  int count = static_cast<int>(d.vertices.size());
+  for (const DiagramEdge& e : d.edges) count -= e.closed() ? 0 : 1;
+  // A cell with one loop is a disk; of several, the charts tell which go around holes.
+  const bool disks = std::all_of(d.cells.begin(), d.cells.end(), [](const auto& c) { return c.loops.size() == 1; });
+  const DiagramCharts charts = disks ? DiagramCharts{} : chart_cells(domain, d);
   for (const DiagramCell& cell : d.cells) {
-    disks += static_cast<int>(cell.loops.size());
+    if (cell.loops.empty()) count += d.vertices.empty() ? 2 : 1;  // a closed surface; without the antipode
+    if (disks) ++count;
+    if (!disks) {
+      for (const double area : charts.cells[cell.site].loop_areas) count += area > 0.0 ? 1 : -1;
+    }
     for (const auto& loop : cell.loops) {
-      for (const CellPiece& piece : loop) border_pieces += piece.edge < 0 ? 1 : 0;
+      for (const CellPiece& piece : loop) count -= piece.edge < 0 && piece.from_vertex >= 0 ? 1 : 0;
     }
   }
-  return static_cast<int>(d.vertices.size()) - static_cast<int>(d.edges.size()) - border_pieces + disks;
+  return count;
 }
 
 double worst_mismatch(const Surface& surface, const VoronoiDiagram& d) {

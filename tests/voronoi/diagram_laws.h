@@ -4,6 +4,7 @@
 #include <string>
 
 #include "brep/face_domain.h"
+#include "test_faces.h"
 #include "voronoi/diagram.h"
 
 namespace geovor::testing {
@@ -12,9 +13,12 @@ namespace geovor::testing {
 /// right cells; loops hold together. Says the first broken law.
 std::string broken_topology(const VoronoiDiagram& diagram);
 
-/// V - E + F over the vertices, the edges with the stretches of the border between them, and the disks that the loops
-/// of the cells bound (the border of a face may cut a cell in two). For cells without holes.
-int euler_number(const VoronoiDiagram& diagram);
+/// What the certificate of the diagram says, unless it holds.
+std::string unproved(const TestFace& face, const VoronoiDiagram& diagram);
+
+/// V - E + F, the stretches of the border between vertices being edges, and a cell counting as what it is: a disk for
+/// each loop that goes around a piece of it, less one for each hole.
+int euler_number(const FaceDomain& domain, const VoronoiDiagram& diagram);
 
 /// The largest relative difference of the geodesic distances from a vertex or edge point to its sites, by connect()
 /// without a guess where that finds a geodesic no longer than the stored one.
