@@ -61,13 +61,13 @@ bool within(Interval sweep, Interval range) {
 
 }  // namespace
 
-RaySource::RaySource(const Surface& surface, Uv p)
+RaySource::RaySource(const Surface& surface, Uv p, double curvature)
     : surface_(&surface),
       p_(p),
       jet_(surface.jet(p)),
       frame_(tangent_frame(surface, p)),
       piece_(surface, p, {}, false),
-      curvature_(curvatures(jet_).largest()),
+      curvature_(std::max(curvatures(jet_).largest(), curvature)),
       closed_form_(has_closed_form(surface)) {}
 
 TracedRay RaySource::end(double s, double t, const TraceOptions& options) const {
@@ -124,8 +124,12 @@ TracedRay RaySource::one_step(const Xyz& T, double s, double tolerance) const {
   // The parabola tells at no cost that a ray leaves its piece, as most do where knots are dense.
   const GeodesicVector ahead = x + s * slope;
   if (!stays_on_piece(x, ahead, s)) return {};
-  const bool loose = tolerance >= kLoosest && kOrder4 * std::pow(reach, 5) <= tolerance;
-  if (!loose && !(reach <= kOneStep * std::pow(tolerance, 1.0 / dop853::kErrorOrder))) return {};
+  const auto short_enough_loose = [&](double bend) { return kOrder4 * std::pow(bend, 5) <= tolerance; };
+  const auto short_enough = [&](double bend) {
+    return bend <= kOneStep * std::pow(tolerance, 1.0 / dop853::kErrorOrder);
+  };
+  const bool loose = tolerance >= kLoosest && short_enough_loose(reach);
+  if (!loose && !short_enough(reach)) return {};
   GeodesicVector end;
   double met = std::numeric_limits<double>::infinity();
   if (loose) {
@@ -137,7 +141,11 @@ TracedRay RaySource::one_step(const Xyz& T, double s, double tolerance) const {
     if (!(met <= tolerance)) return {};
   }
   if (!(flow.normal.dot(normal) > 0.0 && stays_on_piece(x, end, s))) return {};
-  return finish(end, met, loose ? 4 : dop853::kStages);
+  const TracedRay ray = finish(end, met, loose ? 4 : dop853::kStages);
+  // The step may have come from a flat place to a curved one that it knows nothing of.
+  const double bend = s * curvatures(ray.jet).largest();
+  if (!(loose ? short_enough_loose(bend) : short_enough(bend))) return {};
+  return ray;
 }
 
 TracedRay RaySource::finish(const GeodesicVector& x, double tolerance, int evaluations) const {

@@ -22,7 +22,8 @@ struct TracedRay {
 
 class RaySource {
  public:
-  RaySource(const Surface& surface, Uv p);
+  /// `curvature`: what normal curvature a ray may have to do with on its way, where more is known than that at p.
+  explicit RaySource(const Surface& surface, Uv p, double curvature = 0.0);
 
   /// O_p(s,t) within what trace.h promises. From options.tolerance = kLoosest on a short ray is one Runge-Kutta step of
   /// order 4 without an estimate of its error, meant for the first steps of an iteration whose last one is exact.
@@ -30,7 +31,7 @@ class RaySource {
   TracedRay end(double s, double t, const TraceOptions& options) const;
 
   const TangentFrame& frame() const { return frame_; }
-  /// The largest normal curvature at the point.
+  /// The larger of the largest normal curvature at the point and what was told.
   double curvature() const { return curvature_; }
 
  private:

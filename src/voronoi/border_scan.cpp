@@ -12,6 +12,14 @@ namespace {
 constexpr double kStep = 0.5;
 constexpr double kStepNearSite = 0.2;
 
+// Between two places an angle changes by what its slopes at both say, but for this part of it; more means another
+// geodesic of the same site. A change too small to tell is none.
+constexpr double kJump = 0.25;
+constexpr double kNoChange = 1e-6;
+
+// How often a step is halved where an owner can't be followed over it, or its geodesic is another one afterwards.
+constexpr int kMostHalvings = 10;
+
 // How often a step is halved where a third generator may own a piece between two labels.
 constexpr int kDeepestSplit = 6;
 
@@ -126,26 +134,47 @@ class CycleScan {
     return false;
   }
 
+  /// Whether two rays of one site may be different geodesics.
+  static bool turns_over(const SiteRay& a, const SiteRay& b) {
+    if (a.site != b.site) return false;
+    const Xyz way = b.x - a.x;
+    const double from = a.N.dot(way) / a.y, to = b.N.dot(way) / b.y;
+    const double off = wrap_angle(b.polar.t - a.polar.t - 0.5 * (from + to));
+    return std::abs(off) > kJump * (std::abs(from) + std::abs(to)) + kNoChange;
+  }
+
   /// The generator's ray to another place.
   std::optional<SiteRay> follow(const SiteRay& ray, double at) const {
     return rays_.to(ray.site, uv(at), carry(ray, rays_.surface().position(uv(at))));
   }
 
+  /// The changes between two owners. A step on which one of them can't be followed is too long.
   void collect(double lo, const SiteRay& a, double hi, const SiteRay& b, int depth) {
+    if (depth > kMostChanges) return;
     const auto a_there = follow(a, hi), b_here = follow(b, lo);
-    if (a_there && same_generator(*a_there, b)) return;
-    if (!a_there || !b_here || depth > kMostChanges) return;
-    const auto change = root(lo, a, *b_here, hi, *a_there, b);
-    if (!change) return;
-    const double radius = change->before.polar.s, at = change->place.parameter;
-    const auto nearer = sites_.nearer_than(radius * (1.0 - kTie), uv(at), {change->before, change->after});
-    if (nearer.empty()) {
-      changes_.push_back(*change);
-      if (at >= end_) changes_.back().place.parameter = 0.0;
+    const bool followed = a_there && b_here && (depth >= kMostHalvings || !turns_over(a, b));
+    if (followed && same_generator(*a_there, b)) return;
+    const auto change = followed ? root(lo, a, *b_here, hi, *a_there, b) : std::nullopt;
+    if (!change) {
+      const double middle = 0.5 * (lo + hi);
+      const auto owner = depth < kMostHalvings ? sites_.nearest(uv(middle)) : std::vector<SiteRay>{};
+      if (owner.empty()) return;
+      collect(lo, a, middle, owner.front(), depth + 1);
+      collect(middle, owner.front(), hi, b, depth + 1);
       return;
     }
-    collect(lo, a, at, nearer.front(), depth + 1);
-    collect(at, nearer.front(), hi, b, depth + 1);
+    const double radius = change->before.polar.s, at = change->place.parameter;
+    const auto nearer = sites_.nearer_than(radius * (1.0 - kTie), uv(at), {change->before, change->after});
+    if (!nearer.empty()) {
+      collect(lo, a, at, nearer.front(), depth + 1);
+      collect(at, nearer.front(), hi, b, depth + 1);
+      return;
+    }
+    // The two may have changed to other geodesics of theirs on the way to here.
+    if (turns_over(a, change->before)) collect(lo, a, at, change->before, depth + 1);
+    changes_.push_back(*change);
+    if (at >= end_) changes_.back().place.parameter = 0.0;
+    if (turns_over(change->after, b)) collect(at, change->after, hi, b, depth + 1);
   }
 
   /// Root of d_a - d_b on [lo, hi] by the Illinois variant of false position, which needs no derivative and so does not

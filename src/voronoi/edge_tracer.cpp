@@ -37,6 +37,11 @@ constexpr double kApproach = 0.3;
 // curvature radii, and the rest of the way is straight.
 constexpr double kOneGeodesic = 0.02;
 
+// Between two points of an edge an angle changes by what its slopes at both say, but for this part of it; more means
+// that Newton's method went over to another geodesic of the site. A change too small to tell is none.
+constexpr double kJump = 0.25;
+constexpr double kNoChange = 1e-6;
+
 // See EdgeTracer::predict.
 constexpr double kSmallCorrection = 0.3;
 
@@ -90,6 +95,18 @@ double extrapolate(double f0, double d0, double f1, double d1, double h0, double
 /// Where a ray's angle gets to when its end moves by `step`, as if the surface beyond were a plane.
 double turned(const SiteRay& ray, const Xyz& step) {
   return ray.polar.t + ray.polar.s / ray.y * std::atan2(ray.N.dot(step), ray.polar.s + ray.T.dot(step));
+}
+
+/// Whether the rays at b are those of a, moved.
+bool goes_on(const BisectorPoint& a, const BisectorPoint& b) {
+  const double h = chord(a, b);
+  const BisectorSlope d = bisector_slope(a), e = bisector_slope(b);
+  const auto smooth = [h](double change, double slope0, double slope1) {
+    const double most = kJump * h * (std::abs(slope0) + std::abs(slope1)) + kNoChange;
+    return std::abs(wrap_angle(change - 0.5 * h * (slope0 + slope1))) <= most;
+  };
+  return smooth(b.left.polar.t - a.left.polar.t, d.left_angle, e.left_angle) &&
+         smooth(b.right.polar.t - a.right.polar.t, d.right_angle, e.right_angle);
 }
 
 bool near_conjugate_point(const BisectorPoint& m) {
@@ -284,6 +301,7 @@ EdgeTracer::Step EdgeTracer::take_vertex(Walk& walk, const Vertex& found) const 
 }
 
 EdgeTracer::Step EdgeTracer::take_point(Walk& walk, const BisectorPoint& next) const {
+  if (!goes_on(walk.current(), next)) return Step::Failed;
   if (leaves_face(walk.current(), next, walk.skip(), 0)) return end_on_border(walk, next) ? Step::Ended : Step::Failed;
   walk.edge.points.push_back(next);
   return Step::Going;

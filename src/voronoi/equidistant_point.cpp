@@ -168,10 +168,8 @@ std::optional<MeetingRays> find_equidistant(const SiteRays& rays, std::span<cons
   Aims aims;
   std::copy(first_aims.begin(), first_aims.end(), aims.begin());
   const std::span<const PolarGuess> used(aims.data(), first_aims.size());
-  double curvature = 0.0;
-  for (const PolarGuess& aim : used) curvature = std::max(curvature, rays.curvature(aim.site));
   for (int i = 0; i < kMostRounds; ++i) {
-    const ShotLadder ladder(curvature * radius, kRayTolerance);
+    const ShotLadder ladder(rays.curvature() * radius, kRayTolerance);
     Round round(rays, plane);
     if (!round.shoot(used, radius, ladder.tolerance_for(miss))) return std::nullopt;
     const double gap = round.gap(), relative = gap / round.scale();

@@ -33,6 +33,23 @@ constexpr int kMostShots = 12;
 constexpr double kMostTurn = 0.5;
 constexpr double kMostStretch = 0.5;
 
+// A grid over the domain on which its curvature is looked at, ends left out: there may be poles.
+constexpr int kCurvatureGrid = 32;
+
+double largest_curvature(const Surface& surface) {
+  const UvBox d = surface.domain();
+  double largest = 0.0;
+  for (int i = 0; i < kCurvatureGrid; ++i) {
+    for (int k = 0; k < kCurvatureGrid; ++k) {
+      const double u = d.u.lo + (i + 0.5) / kCurvatureGrid * d.u.length();
+      const double v = d.v.lo + (k + 0.5) / kCurvatureGrid * d.v.length();
+      const double c = curvatures(surface.jet({u, v})).largest();
+      if (std::isfinite(c)) largest = std::max(largest, c);
+    }
+  }
+  return largest;
+}
+
 /// From the end of the ray to the target, see moved().
 Polar second_order_step(const SiteRay& ray, const Xyz& target) {
   const double a = ray.T.dot(target - ray.x), b = ray.N.dot(target - ray.x);
@@ -43,14 +60,9 @@ Polar second_order_step(const SiteRay& ray, const Xyz& target) {
 }  // namespace
 
 SiteRays::SiteRays(const Surface& surface, const std::vector<Uv>& sites)
-    : surface_(surface), sites_(sites), closed_form_(has_closed_form(surface)) {
+    : surface_(surface), sites_(sites), closed_form_(has_closed_form(surface)), curvature_(closed_form_ ? 0.0 : largest_curvature(surface)) {
   sources_.reserve(sites.size());
-  for (const Uv p : sites) sources_.emplace_back(surface, p);
-}
-
-double SiteRays::curvature(int site) const {
-  const bool known = site < static_cast<int>(sources_.size());
-  return known ? sources_[site].curvature() : RaySource(surface_, sites_[site]).curvature();
+  for (const Uv p : sites) sources_.emplace_back(surface, p, curvature_);
 }
 
 std::optional<SiteRay> SiteRays::at(int site, Polar polar) const {
@@ -66,7 +78,7 @@ std::optional<RayShot> SiteRays::shoot(int site, Polar polar, double tolerance) 
   options.tolerance = tolerance;
   const bool known = site < static_cast<int>(sources_.size());
   const TracedRay end = known ? sources_[site].end(polar.s, polar.t, options)
-                           : RaySource(surface_, sites_[site]).end(polar.s, polar.t, options);
+                           : RaySource(surface_, sites_[site], curvature_).end(polar.s, polar.t, options);
   if (end.status != TraceStatus::Converged) return std::nullopt;
   const SpaceState& at = end.at;
   const RayShot shot{
@@ -94,7 +106,7 @@ std::optional<SiteRay> SiteRays::roughly_to(int site, Uv m, std::optional<Polar>
 // until the miss is so small that one more step makes it good.
 std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, double tolerance, double miss_of_guess) const {
   const SurfaceJet target = surface_.jet(m);
-  const ShotLadder ladder(curvature(site) * aim.s, tolerance);
+  const ShotLadder ladder(curvature() * aim.s, tolerance);
   double last = std::numeric_limits<double>::infinity(), asked = ladder.tolerance_for(miss_of_guess);
   for (int i = 0; i < kMostShots && aim.s > 0.0; ++i) {
     const auto shot = shoot(site, aim, asked);

@@ -49,8 +49,8 @@ class SiteRays {
   /// The same to kRoughly of the length, for values that are guesses and bounds.
   std::optional<SiteRay> roughly_to(int site, Uv m, std::optional<Polar> guess = std::nullopt) const;
 
-  /// The largest normal curvature at the site.
-  double curvature(int site) const;
+  /// The largest normal curvature that was found anywhere on the surface: what a ray may meet on its way.
+  double curvature() const { return curvature_; }
 
   const Surface& surface() const { return surface_; }
   Uv site(int i) const { return sites_[i]; }
@@ -67,6 +67,7 @@ class SiteRays {
   const std::vector<Uv>& sites_;
   std::vector<RaySource> sources_;  ///< of the sites that there were at first
   bool closed_form_;
+  double curvature_;
 };
 
 /// What the integrator is asked for, relative to the length.
