@@ -32,6 +32,7 @@ constexpr Sample kStepFiles[] = {
     {"plate_inch", make_cad::plate, "INCH"},
     {"plate_metre", make_cad::plate, "M"},
     {"bracket", make_cad::bracket},
+    {"flat", make_cad::flat},
 };
 
 constexpr Sample kIgesFiles[] = {{"wave", make_cad::wave}, {"plate", make_cad::plate}};

@@ -70,6 +70,11 @@ TopoDS_Shape wave() {
   return whole_face(graph(knots, knots, {{sine, cosine}}));
 }
 
+TopoDS_Shape flat() {
+  const Knots knots = uniform_knots(1, -3.0, 3.0, 1);
+  return whole_face(graph(knots, knots, {}));
+}
+
 TopoDS_Shape paraboloid() {
   const Knots knots = uniform_knots(2, -1.0, 1.0, 1);
   const auto square = [](double x) { return x * x; };

@@ -7,6 +7,7 @@ namespace make_cad {
 
 // Open faces (freeform.cpp)
 TopoDS_Shape wave();              ///< (u, v, sin u cos v) on [-3,3]^2: the paper's figure 3
+TopoDS_Shape flat();              ///< (u, v, 0) on [-3,3]^2: the Euclidean half of the paper's figure 5
 TopoDS_Shape paraboloid();        ///< (u, v, u^2 + v^2) on [-1,1]^2: the paper's figure 4
 TopoDS_Shape bumps();             ///< two tall bumps on a plane, [-2,2]^2: the paper's figure 6
 TopoDS_Shape freeform();          ///< a bicubic patch of 8 x 8 poles

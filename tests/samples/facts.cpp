@@ -28,6 +28,9 @@ const std::map<std::string, Graph>& graphs() {
       {"wave",
        {3.0, 1e-9, [](double x, double y) { return sin(x) * cos(y); },
         [](double x, double y) { return cos(x) * cos(y); }, [](double x, double y) { return -sin(x) * sin(y); }}},
+      {"flat",
+       {3.0, 1e-15, [](double, double) { return 0.0; }, [](double, double) { return 0.0; },
+        [](double, double) { return 0.0; }}},
       {"paraboloid",
        {1.0, 1e-15, [](double x, double y) { return x * x + y * y; }, [](double x, double) { return 2.0 * x; },
         [](double, double y) { return 2.0 * y; }}},
@@ -86,6 +89,7 @@ const std::map<std::string, Facts>& all_facts() {
   static const std::map<std::string, Facts> facts = {
       {"wave.step", open_face(graph_area("wave"), 1e-8)},
       {"wave.iges", in_iges(open_face(graph_area("wave"), 1e-8))},
+      {"flat.step", open_face(36.0, 1e-12)},
       {"paraboloid.step", open_face(graph_area("paraboloid"), 1e-10)},
       {"bumps.step", open_face(graph_area("bumps"), 1e-5)},
       {"freeform.step", patch},

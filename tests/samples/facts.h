@@ -19,7 +19,7 @@ struct Facts {
 /// The facts of a sample; nothing where none are written down.
 std::optional<Facts> facts_of(const std::string& file);
 
-/// The height of the graphs wave, paraboloid and bumps over (x, y); nothing for other files.
+/// The height of the graphs wave, flat, paraboloid and bumps over (x, y); nothing for other files.
 std::optional<double> graph_height(const std::string& file, double x, double y);
 /// How far the spline in the file may lie from graph_height, measured along z (samples/README.md).
 double graph_error(const std::string& file);
