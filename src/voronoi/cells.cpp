@@ -15,8 +15,11 @@ struct Dart {
 class CellWalker {
  public:
   CellWalker(const FaceBorder& border, VoronoiDiagram& diagram)
-      : border_(border), diagram_(diagram), walked_(diagram.edges.size(), {false, false}) {
-    on_cycle_.resize(border.cycle_count());
+      : border_(border),
+        diagram_(diagram),
+        walked_(diagram.edges.size(), {false, false}),
+        on_cycle_(border.cycle_count()),
+        next_(diagram.vertices.size(), -1) {
     for (int v = 0; v < static_cast<int>(diagram.vertices.size()); ++v) {
       if (diagram.vertices[v].on_boundary) on_cycle_[diagram.vertices[v].border_cycle].push_back(v);
     }
@@ -24,6 +27,7 @@ class CellWalker {
       std::stable_sort(list.begin(), list.end(), [&](int a, int b) {
         return diagram.vertices[a].border_parameter < diagram.vertices[b].border_parameter;
       });
+      for (size_t i = 0; i < list.size(); ++i) next_[list[i]] = list[(i + 1) % list.size()];
     }
   }
 
@@ -43,7 +47,8 @@ class CellWalker {
     };
     CellPiece piece;
     piece.from_vertex = from, piece.to_vertex = to, piece.border_cycle = cycle;
-    piece.border_uv = border_.stretch(place(from), place(to));
+    piece.border_uv =
+        is_point(from, to) ? std::vector<Uv>(2, diagram_.vertices[from].uv) : border_.stretch(place(from), place(to));
     for (Uv p : piece.border_uv) piece.border_xyz.push_back(border_.xyz_of(p));
     return piece;
   }
@@ -85,11 +90,16 @@ class CellWalker {
     if (arrived == vertex.spokes.end()) return {};
     if (arrived != vertex.spokes.begin()) return leave(*(arrived - 1));
     if (!vertex.on_boundary) return leave(vertex.spokes.back());
-    const auto& list = on_cycle_[vertex.border_cycle];
-    const auto here = std::find(list.begin(), list.end(), v);
-    const int other = here + 1 == list.end() ? list.front() : *(here + 1);
+    const int other = next_[v];
     loop.push_back(border_piece(vertex.border_cycle, v, other));
     return leave(diagram_.vertices[other].spokes.back());
+  }
+
+  /// Two vertices in one place: between the first and the last of them, around the cycle, lies all of it.
+  bool is_point(int from, int to) const {
+    if (from < 0 || from == to) return false;
+    const DiagramVertex &a = diagram_.vertices[from], &b = diagram_.vertices[to];
+    return a.border_parameter == b.border_parameter && on_cycle_[a.border_cycle].front() != to;
   }
 
   void give_up(int site) {
@@ -103,6 +113,7 @@ class CellWalker {
   VoronoiDiagram& diagram_;
   std::vector<std::array<bool, 2>> walked_;
   std::vector<std::vector<int>> on_cycle_;  ///< vertices along each cycle
+  std::vector<int> next_;                   ///< vertex on the border: the one that follows it
 };
 
 double length(const std::vector<CellPiece>& loop, const VoronoiDiagram& diagram) {
@@ -112,6 +123,15 @@ double length(const std::vector<CellPiece>& loop, const VoronoiDiagram& diagram)
     for (size_t i = 1; i < piece.border_xyz.size(); ++i) sum += (piece.border_xyz[i] - piece.border_xyz[i - 1]).norm();
   }
   return sum;
+}
+
+void sort_by_length(DiagramCell& cell, const VoronoiDiagram& diagram) {
+  std::vector<std::pair<double, size_t>> order;
+  for (size_t i = 0; i < cell.loops.size(); ++i) order.push_back({-length(cell.loops[i], diagram), i});
+  std::sort(order.begin(), order.end());
+  std::vector<std::vector<CellPiece>> sorted;
+  for (const auto& [minus_length, i] : order) sorted.push_back(std::move(cell.loops[i]));
+  cell.loops = std::move(sorted);
 }
 
 }  // namespace
@@ -127,8 +147,7 @@ void assemble_cells(const FaceBorder& border, const std::function<int(int cycle)
     if (owner >= 0) diagram.cells[owner].loops.push_back({walker.border_piece(cycle, -1, -1)});
   }
   for (DiagramCell& cell : diagram.cells) {
-    std::stable_sort(cell.loops.begin(), cell.loops.end(),
-                     [&](const auto& a, const auto& b) { return length(a, diagram) > length(b, diagram); });
+    if (cell.loops.size() > 1) sort_by_length(cell, diagram);
   }
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geodesic/trace.h"
 #include "surface/forms.h"
+#include "voronoi/border_view.h"
 #include "voronoi/site_ray.h"
 
 namespace geovor {
@@ -18,9 +21,8 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 // Points of a path that are looked at: enough to notice a path that leaves by a percent of its length.
 constexpr int kPathSamples = 24;
 
-// Directions of neighbouring paths from a site (radians): what hides between two is narrower than a thirtieth of its
-// distance from the site. Stored points further apart than this are all looked at.
-constexpr double kSwing = 0.03;
+// Paths that are looked at to places on one hidden run of the border, spread over it, the last one among them.
+constexpr int kPathsOfRun = 8;
 
 // An excursion that stays this near to the border, as a part of the path's length, is none: the chords between the
 // samples sag by as much, and going round it lengthens the path by less than its square. So a path whose end lies on
@@ -65,76 +67,52 @@ double vertex_residual(const SiteRays& rays, const DiagramVertex& v) {
   return relative_spread(lo, hi);
 }
 
-/// Follows the geodesics from the sites and keeps, for each site, the first place found where one leaves the face.
-class PathWatch {
- public:
-  PathWatch(const FaceDomain& domain, const std::vector<Uv>& sites)
-      : domain_(domain), rays_(domain.surface(), sites), exits_(sites.size()) {}
-
-  /// The paths from the site on one side of the edge to the edge's points.
-  void look_along(const DiagramEdge& e, bool left);
-  /// The paths from the site to a stretch of the face's border: the first is found from `guess` or, without one, anew.
-  void look_along(int site, const CellPiece& border, std::optional<Polar> guess);
-
-  const std::vector<std::optional<Uv>>& exits() const { return exits_; }
-
- private:
-  void look(int site, Polar to);
-  const FaceDomain& domain_;
-  SiteRays rays_;
-  std::vector<std::optional<Uv>> exits_;
+/// Where a path leaves the face and where it comes back, and what part of its length it spends outside.
+struct Excursion {
+  Uv out, back;
+  double part = 0.0;
 };
 
-void PathWatch::look(int site, Polar to) {
+/// The first excursion of the site's ray with these polar coordinates, which ends on the border.
+std::optional<Excursion> excursion(const FaceDomain& domain, Uv site, const BorderView::Place& to) {
   TraceOptions options;
   options.stop_at_domain = false;
   options.tolerance = kPathTolerance;
-  const Surface& surface = domain_.surface();
-  const Uv start = rays_.site(site);
-  const UvVec direction = direction_at_angle(first_form(surface.jet(start)), to.t);
+  const Surface& surface = domain.surface();
+  const UvVec direction = direction_at_angle(surface.jet(site), to.polar.t);
   std::vector<Uv> path;
-  for (const auto& state : sample_geodesic(surface, start, direction, to.s, kPathSamples, options)) {
+  for (const auto& state : sample_geodesic(surface, site, direction, to.polar.s, kPathSamples, options)) {
     path.push_back(state.p);
   }
-  const auto exit = domain_.first_exit(path, std::max(domain_.deflection(), kShallow * to.s));
-  if (exit) exits_[site] = domain_.to_principal(exit->out.uv);
+  const auto exit = domain.first_exit(path, std::max(domain.deflection(), kShallow * to.polar.s));
+  if (!exit) return std::nullopt;
+  const double n = static_cast<double>(path.size()) - 1.0;
+  const double left_at = exit->out.segment + exit->out.k;
+  const double back_at = exit->back ? exit->back->segment + exit->back->k : n;
+  return Excursion{domain.to_principal(exit->out.uv), exit->back ? domain.to_principal(exit->back->uv) : to.uv,
+                   (back_at - left_at) / n};
 }
 
-void PathWatch::look_along(const DiagramEdge& e, bool left) {
-  const int site = left ? e.left : e.right;
-  std::optional<double> last;
-  for (size_t i = 0; i < e.points.size() && !exits_[site]; ++i) {
-    const EdgePoint& p = e.points[i];
-    const double angle = left ? p.left_angle : p.right_angle;
-    if (last && i + 1 < e.points.size() && std::abs(wrap_angle(angle - *last)) < kSwing) continue;
-    last = angle;
-    look(site, {p.radius, angle});
+/// Of the paths to the run's places, the longest excursion.
+std::optional<Excursion> longest_excursion(const FaceDomain& domain, Uv site, const BorderView& view, HiddenRun run) {
+  std::optional<Excursion> longest;
+  const int count = std::min(kPathsOfRun, run.last - run.first);
+  for (int i = 1; i <= count; ++i) {
+    const auto found = excursion(domain, site, view.places[run.first + (run.last - run.first) * i / count]);
+    if (found && (!longest || found->part > longest->part)) longest = found;
   }
+  return longest;
 }
 
-// From one place to the next the geodesic is carried on; where that fails it is found anew.
-void PathWatch::look_along(int site, const CellPiece& border, std::optional<Polar> guess) {
-  std::optional<SiteRay> last;
-  for (size_t i = 0; i < border.border_uv.size() && !exits_[site]; ++i) {
-    if (last) {
-      guess = carry(*last, border.border_xyz[i]);
-      if (i + 1 < border.border_uv.size() && std::abs(wrap_angle(guess->t - last->polar.t)) < kSwing) continue;
-    }
-    auto ray = rays_.roughly_to(site, border.border_uv[i], guess);
-    if (!ray && guess) ray = rays_.roughly_to(site, border.border_uv[i]);
-    if (!ray) continue;
-    look(site, ray->polar);
-    last = ray;
-  }
-}
-
-/// The ray from the cell's site by which a stretch of border starts at its vertex: the vertex's first generator owns
-/// the border that leaves it.
-std::optional<Polar> ray_at_start(const VoronoiDiagram& d, int site, const CellPiece& piece) {
-  if (piece.from_vertex < 0) return std::nullopt;
-  const DiagramVertex& v = d.vertices[piece.from_vertex];
-  if (v.sites.front() != site) return std::nullopt;
-  return Polar{v.radius, v.angles.front()};
+DiagramWarning leaves_face(int site, const Excursion& e) {
+  char back[64];
+  std::snprintf(back, sizeof back, "(%.6g, %.6g)", e.back.u, e.back.v);
+  return {"path_leaves_face",
+          {site},
+          e.out,
+          std::string("the shortest path from this site to a part of its cell leaves the face here and comes back at "
+                      "(u, v) = ") +
+              back + "; distances are those of the surface without its trims"};
 }
 
 }  // namespace
@@ -146,29 +124,32 @@ void recompute_residuals(const Surface& surface, VoronoiDiagram& diagram) {
   for (DiagramVertex& v : diagram.vertices) v.residual = vertex_residual(rays, v);
 }
 
-// Cells are stars: the paths to a cell's inner points are parts of those to its edges and to its stretches of border.
+// A cell is a star of the continued surface. A path to a point of it that leaves the face comes back, before that
+// point, through a piece of border that belongs to the cell as well and turns its back on the site: along it, with the
+// face to the left, the angle falls. So the cell's stretches of border tell all, and cells inside the face cost
+// nothing.
 void warn_of_paths_that_leave(const FaceDomain& domain, VoronoiDiagram& diagram) {
   const std::vector<Uv> sites = places_of_sites(diagram);
-  PathWatch watch(domain, sites);
-  for (const DiagramEdge& e : diagram.edges) {
-    watch.look_along(e, true);
-    watch.look_along(e, false);
-  }
+  const SiteRays rays(domain.surface(), sites);
   for (const DiagramCell& cell : diagram.cells) {
     for (const auto& loop : cell.loops) {
       for (const CellPiece& piece : loop) {
-        if (piece.edge < 0) watch.look_along(cell.site, piece, ray_at_start(diagram, cell.site, piece));
+        if (piece.edge >= 0) continue;
+        BorderView view = view_of_border(rays, diagram, cell.site, piece);
+        if (piece.from_vertex == piece.to_vertex) begin_in_front(view);
+        if (!view.complete) {
+          diagram.warnings.push_back({"unresolved",
+                                      {cell.site},
+                                      piece.border_uv.front(),
+                                      "to a part of the border that starts here no geodesic was found: whether paths "
+                                      "to it leave the face is not known"});
+        }
+        for (const HiddenRun run : hidden_runs(view, domain.deflection())) {
+          const auto found = longest_excursion(domain, sites[cell.site], view, run);
+          if (found) diagram.warnings.push_back(leaves_face(cell.site, *found));
+        }
       }
     }
-  }
-  for (int site = 0; site < static_cast<int>(sites.size()); ++site) {
-    if (!watch.exits()[site]) continue;
-    diagram.warnings.push_back(
-        {"path_leaves_face",
-         {site},
-         *watch.exits()[site],
-         "the shortest path from this site to a part of its cell leaves the face here; distances "
-         "are those of the surface without its trims"});
   }
 }
 

@@ -10,9 +10,11 @@ namespace geovor {
 /// the largest difference of their lengths is divided by the radius. Infinite where one does not converge.
 void recompute_residuals(const Surface& surface, VoronoiDiagram& diagram);
 
-/// Adds a warning "path_leaves_face" for each site whose geodesics to the edges of its cell, or to the face's border
-/// around it, leave the face; with the place where the first one found does so. Looked at are the stored points, some
-/// 0.03 radians or a step of the edge apart as seen from the site: what hides between two of them is missed.
+/// Adds a warning "path_leaves_face" for each stretch of the face's border that a site's shortest paths reach from
+/// beyond the face, with the place where such a path leaves it (of some, the one that stays outside longest) and, in
+/// the text, where it comes back. Complete as far as the cells' loops are and as the border's polyline tells:
+/// excursions that stay within its deflection, or 5e-4 of the path's length, are none. "unresolved" where a ray is not
+/// found.
 void warn_of_paths_that_leave(const FaceDomain& domain, VoronoiDiagram& diagram);
 
 }  // namespace geovor
