@@ -34,6 +34,10 @@ constexpr int kMostSamplesInAll = 400000;
 // What interpolation may put a point beside its ray, in parts of the way between samples.
 constexpr double kSlack = 0.02;
 
+// The ends' own neighbourhoods, in parts of the interval, count to both intervals: a foot may fall between the two
+// where the ray bends.
+constexpr double kOverlap = 0.1;
+
 // A target that is more sample steps above the ray's surface than the first lies on another sheet of it, perhaps; more
 // than the second, certainly.
 constexpr double kPlain = 0.5;
@@ -100,7 +104,7 @@ class PolarAtlas::Builder {
   }
 
  private:
-  const Ray& ray(int index);
+  Ray& ray(int index);
   Ray follow(double t);
   bool done(const GeodesicIntegrator& path, const Sample& x) const;
   std::optional<Sample> sample(const GeodesicIntegrator& path, const Ray& ray) const;
@@ -166,7 +170,7 @@ PolarAtlas::Ray PolarAtlas::Builder::follow(double t) {
   return ray;
 }
 
-const PolarAtlas::Ray& PolarAtlas::Builder::ray(int index) {
+PolarAtlas::Ray& PolarAtlas::Builder::ray(int index) {
   const int i = index % kCircle;
   auto known = rays_.find(i);
   if (known == rays_.end()) known = rays_.emplace(i, follow(kTwoPi * i / kCircle)).first;
@@ -187,11 +191,13 @@ double PolarAtlas::Builder::apart_at(const Ray& a, const Ray& b) const {
 }
 
 void PolarAtlas::Builder::refine(int index, int next, int halvings) {
-  const Ray &a = ray(index), &b = ray(next);
+  Ray &a = ray(index), &b = ray(next);
   const double apart = apart_at(a, b);
   const bool close = std::isinf(apart);
   if (!close && halvings > 0 && samples_ < kMostSamplesInAll) {
     const int middle = (index + next) / 2;
+    ray(middle).from = apart;
+    for (Ray* r : {&a, &b}) r->from = std::min(r->from, apart);
     refine(index, middle, halvings - 1);
     refine(middle, next, halvings - 1);
     return;
@@ -203,40 +209,59 @@ void PolarAtlas::Builder::refine(int index, int next, int halvings) {
 
 PolarAtlas::PolarAtlas(const Surface& surface, Uv from, const AtlasOptions& options) : options_(options) {
   Builder(surface, from, *this).run();
-  const int n = static_cast<int>(rays_.size());
-  for (int i = 0; i < n; ++i)
-    turns_.push_back(
-        std::max(turn_from(rays_[(i + n - 1) % n].t, rays_[i].t), turn_from(rays_[i].t, rays_[(i + 1) % n].t)));
   index_parts();
 }
 
+// Parts begin one sample before a ray is needed, so that there is no gap where its neighbours begin to rely on it.
 void PolarAtlas::index_parts() {
   std::vector<BoxTree::Box> boxes;
-  for (int r = 0; r < static_cast<int>(rays_.size()); ++r)
-    for (int i = 1; i < static_cast<int>(rays_[r].samples.size()); ++i) {
-      parts_.push_back({r, i});
+  for (int r = 0; r < static_cast<int>(rays_.size()); ++r) {
+    const Ray& ray = rays_[r];
+    for (int i = 1; i < static_cast<int>(ray.samples.size()); ++i) {
+      const Sample& end = ray.samples[i];
+      if (end.s + end.step < ray.from) continue;
+      parts_.push_back(part(r, i));
       boxes.push_back(box(parts_.back()));
     }
+  }
   tree_ = BoxTree(std::move(boxes));
 }
 
-// Near a conjugate point, where y is no measure, what it changes up to the neighbours counts.
-double PolarAtlas::change(int ray, double s, double y) const {
+// The next ray, one way round, that is needed at s.
+int PolarAtlas::neighbour(int ray, double s, int way) const {
   const int n = static_cast<int>(rays_.size());
-  const Ray &before = rays_[(ray + n - 1) % n], &after = rays_[(ray + 1) % n];
-  return std::max(std::abs(before.y_at(s) - y), std::abs(after.y_at(s) - y));
+  int i = (ray + way + n) % n;
+  while (i != ray && rays_[i].from > s) i = (i + way + n) % n;
+  return i;
 }
 
-// Every target that look() would take.
+PolarAtlas::Part PolarAtlas::part(int ray, int sample) const {
+  const double s = rays_[ray].samples[sample - 1].s;
+  const int before = neighbour(ray, s, -1), after = neighbour(ray, s, 1);
+  const double turn = std::max(turn_from(rays_[before].t, rays_[ray].t), turn_from(rays_[ray].t, rays_[after].t));
+  return {ray, sample, before, after, turn};
+}
+
+// Near a conjugate point, where y is no measure, what it changes up to the neighbours counts.
+double PolarAtlas::change(const Part& part, double s, double y) const {
+  return std::max(std::abs(rays_[part.before].y_at(s) - y), std::abs(rays_[part.after].y_at(s) - y));
+}
+
+// Every target that look() would take: beside the part as far as the next rays, above and below as far as the sheet.
 BoxTree::Box PolarAtlas::box(const Part& part) const {
-  // Between samples y may be somewhat larger than at both.
-  constexpr double kAllowance = 1.25;
+  // Between samples y, the frame and the ray differ from what they are at both by less than these.
+  constexpr double kAllowance = 1.25, kBulge = 0.25;
   const Ray& ray = rays_[part.ray];
   const Sample &p = ray.samples[part.sample - 1], &q = ray.samples[part.sample];
-  const auto aside = [&](const Sample& x) { return std::abs(x.y) + change(part.ray, x.s, x.y); };
-  const double margin =
-      kAllowance * turns_[part.ray] * std::max(aside(p), aside(q)) + kSlack * (q.s - p.s) + kOtherSheet * p.step;
-  return {p.X.cwiseMin(q.X).array() - margin, p.X.cwiseMax(q.X).array() + margin};
+  const double h = q.s - p.s;
+  const auto aside = [&](const Sample& x) { return std::abs(x.y) + change(part, x.s, x.y); };
+  const double side = part.turn * std::max(aside(p), aside(q)) + kSlack * h, sheet = kOtherSheet * p.step;
+  const auto margin = [&](const Sample& x) -> Xyz {
+    return kAllowance * (side * x.n.cross(x.T).cwiseAbs() + sheet * x.n.cwiseAbs() + kOverlap * h * x.T.cwiseAbs());
+  };
+  const double turned = (q.T - p.T).norm() + (q.n - p.n).norm();
+  const Xyz m = margin(p).cwiseMax(margin(q)).array() + kBulge * turned * (h + side + sheet);
+  return {p.X.cwiseMin(q.X) - m, p.X.cwiseMax(q.X) + m};
 }
 
 // Where the ray passes by the target: a foot of the perpendicular between two samples. The geodesic that ends there has
@@ -244,9 +269,8 @@ BoxTree::Box PolarAtlas::box(const Part& part) const {
 std::optional<AtlasHit> PolarAtlas::look(const Part& part, const Xyz& x) const {
   const Ray& ray = rays_[part.ray];
   const Sample &p = ray.samples[part.sample - 1], &q = ray.samples[part.sample];
-  const double h = q.s - p.s, a0 = (x - p.X).dot(p.T), a1 = (x - q.X).dot(q.T), turn = turns_[part.ray];
-  // The ends' own neighbourhoods count to both: a foot may fall between two intervals where the ray bends.
-  if (!(a0 >= -0.1 * h && a1 <= 0.1 * h)) return std::nullopt;
+  const double h = q.s - p.s, a0 = (x - p.X).dot(p.T), a1 = (x - q.X).dot(q.T);
+  if (!(a0 >= -kOverlap * h && a1 <= kOverlap * h)) return std::nullopt;
   double k = std::clamp(a0 / (a0 - a1), 0.0, 1.0);
   constexpr int kSecants = 3;
   double lo = 0.0, hi = 1.0;
@@ -259,10 +283,11 @@ std::optional<AtlasHit> PolarAtlas::look(const Part& part, const Xyz& x) const {
   const Xyz T = ((1.0 - k) * p.T + k * q.T).normalized(), n = ((1.0 - k) * p.n + k * q.n).normalized();
   const Xyz off = x - cubic(p.X, p.T, q.X, q.T, h, k);
   const double b = off.dot(n.cross(T).normalized()), above = std::abs(off.dot(n));
-  const double s = p.s + k * h, y = cubic(p.y, p.dy, q.y, q.dy, h, k), y_change = change(part.ray, s, y);
-  if (!(std::abs(b) <= turn * (std::abs(y) + y_change) + kSlack * std::min(h, s))) return std::nullopt;
+  const double s = p.s + k * h, y = cubic(p.y, p.dy, q.y, q.dy, h, k), y_change = change(part, s, y);
+  const double slack = kSlack * std::min(h, s);
+  if (!(std::abs(b) <= part.turn * (std::abs(y) + y_change) + slack)) return std::nullopt;
   if (!(above <= kOtherSheet * p.step)) return std::nullopt;
-  const double aside = std::clamp(b / y, -turn, turn);
+  const double turn = part.turn + slack / std::max(std::abs(y), slack), aside = std::clamp(b / y, -turn, turn);
   return AtlasHit{{s, ray.t + (std::isfinite(aside) ? aside : 0.0)},
                   turn,
                   y_change < kPlain * std::abs(y) && above < kPlain * p.step};

@@ -15,7 +15,7 @@ namespace geovor {
 /// Where a geodesic seems to end at the target.
 struct AtlasHit {
   Polar at;           ///< to kHitError of the length
-  double turn = 0.0;  ///< to the next geodesic that was followed
+  double turn = 0.0;  ///< to the next geodesic that was followed, or more where places are not that exact
   bool plain = true;  ///< far from conjugate points, and not on another sheet: one geodesic must be meant
 };
 
@@ -64,24 +64,28 @@ class PolarAtlas {
   };
   struct Ray {
     double t = 0.0;
+    double from = 0.0;  ///< where it is needed: before, the rays that it came between are close to each other
     bool lost = true;
     std::vector<Sample> samples;
     double y_at(double s) const;
   };
-  /// A part of a ray, from the sample before `sample` to that.
+  /// A part of a ray, from the sample before `sample` to that, and the rays beside it that are needed there.
   struct Part {
     int ray, sample;
+    int before, after;
+    double turn;  ///< to the farther of the two
   };
 
   class Builder;
-  double change(int ray, double s, double y) const;
+  int neighbour(int ray, double s, int way) const;
+  Part part(int ray, int sample) const;
+  double change(const Part& part, double s, double y) const;
   std::optional<AtlasHit> look(const Part& part, const Xyz& x) const;
   BoxTree::Box box(const Part& part) const;
   void index_parts();
 
   AtlasOptions options_;
-  std::vector<Ray> rays_;      // by angle
-  std::vector<double> turns_;  // of each, to the farther neighbour
+  std::vector<Ray> rays_;  // by angle
   std::vector<Part> parts_;
   BoxTree tree_;  // of parts_
   double complete_to_ = std::numeric_limits<double>::infinity();

@@ -19,8 +19,9 @@ constexpr double kAhead = 2.0;
 
 constexpr double kAtlasAhead = 1.25;
 
-// A rough ray's length is good to kRoughly: beyond some of these it is not shorter than the limit.
-constexpr double kClearly = 1.0 + 3.0 * kRoughly;
+// A rough ray longer than the limit by this is longer. Its length is good to kRoughly as a rule, but from a shot that
+// is one step of low order it may err by some 1e-4 where the curvature has its peak half way.
+constexpr double kClearly = 1.01;
 
 std::vector<Xyz> positions(const SiteRays& rays) {
   std::vector<Xyz> all;
