@@ -46,6 +46,9 @@ VoronoiRequest request_of(const VoronoiArguments& arguments, const SitesFile& fi
   request.spacing = arguments.spacing;
   request.seed = arguments.seed;
   request.snap = arguments.snap;
+  request.certify = arguments.certify;
+  request.raster = std::any_of(arguments.outputs.begin(), arguments.outputs.end(),
+                               [](const std::string& path) { return ending(path) == ".svg"; });
   return request;
 }
 
@@ -87,7 +90,8 @@ void write_outputs(const VoronoiArguments& arguments, const CadModel& model, con
   for (const std::string& path : arguments.outputs) {
     outputs.add(path, [&](const std::string& place) {
       if (ending(path) == ".json") {
-        write_diagram_json(source, result.diagram, result.dual, place);
+        write_diagram_json(source, result.diagram, result.dual, result.certificate ? &*result.certificate : nullptr,
+                           place);
       } else if (ending(path).starts_with(".st")) {
         const CadSheet sheet = cad_cells(model, face, result.diagram, result.deflection);
         write_step(sheet, {arguments.input, face.number, model.unit}, place);
@@ -150,6 +154,37 @@ bool name_failure(const CadModel& model, const CadFace& face, const VoronoiDiagr
   return false;
 }
 
+/// The claims on stdout; where one fails, a line on stderr that names it. Whether all hold.
+bool print_certificate(const CadModel& model, const CadFace& face, const Certificate& certificate) {
+  for (const CertificateClaim& claim : certificate.claims) {
+    fmt::print("{:<17} {}: {} ({:.3g}, bound {:.3g})\n", "claim", claim.name, claim.holds ? "holds" : "fails",
+               claim.measured, claim.bound);
+  }
+  fmt::print("{:<17} {}\n", "certificate", certificate.result);
+  const auto failed = std::find_if(certificate.claims.begin(), certificate.claims.end(),
+                                   [](const CertificateClaim& claim) { return !claim.holds; });
+  if (failed == certificate.claims.end()) return certificate.holds();
+  fmt::print(stderr, "geovor: {}: {}: the claim '{}' of the certificate fails near u = {:.6g}, v = {:.6g}: {}\n",
+             model.file, face_label(face.number), failed->name, failed->uv.u, failed->uv.v, failed->why);
+  return false;
+}
+
+/// Not wrong, but not what was asked either: there the distances are those of the surface beyond the face.
+void warn_of_exits(const CadModel& model, const CadFace& face, const VoronoiDiagram& diagram) {
+  std::set<int> sites;
+  const DiagramWarning* first = nullptr;
+  for (const DiagramWarning& warning : diagram.warnings) {
+    if (warning.kind != "path_leaves_face") continue;
+    if (first == nullptr) first = &warning;
+    sites.insert(warning.sites.begin(), warning.sites.end());
+  }
+  if (first == nullptr) return;
+  fmt::print(stderr,
+             "geovor: {}: {}: warning: shortest paths leave the face (cells of {} sites, first near u = {:.6g}, v = "
+             "{:.6g}); distances there are those of the surface continued, see \"warnings\" in the JSON\n",
+             model.file, face_label(face.number), sites.size(), first->uv.u, first->uv.v);
+}
+
 }  // namespace
 
 int run(const VoronoiArguments& arguments) {
@@ -170,11 +205,13 @@ int run(const VoronoiArguments& arguments) {
   }
   write_outputs(arguments, model, face, result);
   const bool complete = name_failure(model, face, result.diagram);
+  if (complete) warn_of_exits(model, face, result.diagram);
   print_summary(model, face, result);
+  const bool proved = !result.certificate || print_certificate(model, face, *result.certificate);
   fmt::print("{:<17} read {:.2f}, diagram {:.2f}, write {:.2f}\n", "seconds", seconds_read, seconds_diagram,
              watch.lap());
   for (const std::string& path : arguments.outputs) fmt::print("{:<17} {}\n", "wrote", path);
-  return complete ? 0 : static_cast<int>(ErrorCode::FaceRejected);
+  return complete && proved ? 0 : static_cast<int>(ErrorCode::FaceRejected);
 }
 
 }  // namespace geovor

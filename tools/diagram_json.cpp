@@ -78,9 +78,36 @@ Json dual_json(const DualGraph& dual) {
               {"why_not", dual.why_not.empty() ? Json(nullptr) : Json(dual.why_not)}};
 }
 
+const char* word(CertificateClaim::Offender offender) {
+  switch (offender) {
+    case CertificateClaim::Offender::Vertex:
+      return "vertex";
+    case CertificateClaim::Offender::Edge:
+      return "edge";
+    case CertificateClaim::Offender::Cell:
+      return "cell";
+    default:
+      return "diagram";
+  }
+}
+
+Json certificate_json(const Certificate& certificate) {
+  Json claims = each(certificate.claims, [](size_t, const CertificateClaim& c) {
+    Json claim{{"name", c.name},         {"statement", c.statement}, {"holds", c.holds},
+               {"measured", c.measured}, {"bound", c.bound},         {"offender", nullptr}};
+    if (!c.holds) claim["offender"] = {{"kind", word(c.offender)}, {"id", c.id}, {"uv", pair(c.uv)}, {"why", c.why}};
+    return claim;
+  });
+  return Json{{"holds", certificate.holds()},
+              {"result", certificate.result},
+              {"not_covered", certificate.not_covered},
+              {"claims", std::move(claims)}};
+}
+
 }  // namespace
 
-std::string diagram_json(const DocumentSource& source, const VoronoiDiagram& diagram, const DualGraph& dual) {
+std::string diagram_json(const DocumentSource& source, const VoronoiDiagram& diagram, const DualGraph& dual,
+                         const Certificate* certificate) {
   Json document = document_head("geovor-voronoi", source);
   document["tolerance"] = diagram.tolerance;
   document["surface"] = surface_json(source);
@@ -90,12 +117,13 @@ std::string diagram_json(const DocumentSource& source, const VoronoiDiagram& dia
   document["cells"] = cells_json(diagram);
   document["warnings"] = warnings_json(diagram);
   document["delaunay"] = dual_json(dual);
+  if (certificate != nullptr) document["certificate"] = certificate_json(*certificate);
   return document_text(document);
 }
 
 void write_diagram_json(const DocumentSource& source, const VoronoiDiagram& diagram, const DualGraph& dual,
-                        const std::string& path) {
-  write_file(path, diagram_json(source, diagram, dual));
+                        const Certificate* certificate, const std::string& path) {
+  write_file(path, diagram_json(source, diagram, dual, certificate));
 }
 
 }  // namespace geovor

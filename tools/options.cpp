@@ -100,7 +100,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
 void add_voronoi(CLI::App& app, VoronoiArguments& arguments, std::string& face) {
   CLI::App* command = app.add_subcommand("voronoi", "Compute the geodesic Voronoi diagram of sites on one face");
   add_input(*command, arguments.input);
-  add_outputs(*command, arguments.outputs, ".json .svg")->required();
+  add_outputs(*command, arguments.outputs, ".json .step .stp (cells as faces) .svg .vtp (ParaView) .html")->required();
   add_face(*command, face);
   CLI::Option* sites =
       command->add_option("--sites", arguments.sites, "CSV file with the header u,v or x,y,z")->type_name("FILE");
@@ -115,6 +115,7 @@ void add_voronoi(CLI::App& app, VoronoiArguments& arguments, std::string& face) 
       ->excludes(sites)
       ->type_name("S");
   command->add_flag("--snap", arguments.snap, "Move sites in space onto the face, however far they are")->needs(sites);
+  command->add_flag("--certify", arguments.certify, "Prove the diagram, or say what is wrong with it");
   sites->excludes(count)->excludes(spacing);
   count->excludes(spacing);
 }

@@ -42,7 +42,8 @@ struct VoronoiArguments {
   int count = 0;         ///< sites to place; 0: none
   double spacing = 0.0;  ///< model units between sites to place; 0: none
   std::uint64_t seed = 0;
-  bool snap = false;  ///< sites off the face are moved onto it
+  bool snap = false;     ///< sites off the face are moved onto it
+  bool certify = false;  ///< check the star certificate on the finished diagram
 };
 
 struct DistanceArguments {

@@ -112,7 +112,7 @@ const lines = { p: buffer(new Float32Array(here)), q: buffer(new Float32Array(ot
   along: buffer(new Float32Array(along)), sets: kinds.map(k => [buffer(new Uint32Array(k), gl.ELEMENT_ARRAY_BUFFER), k.length]) };
 const lineProgram = program(head +
   'attribute vec3 p, q; attribute float side, along; uniform vec2 screen; uniform float width; varying float s;' +
-  'void main() { vec4 a = seen(p, .004), b = seen(q, .004); vec2 way = (b.xy - a.xy) * screen; float l = length(way);' +
+  'void main() { vec4 a = seen(p, .01), b = seen(q, .01); vec2 way = (b.xy - a.xy) * screen; float l = length(way);' +
   'vec2 across = l > 0. ? vec2(-way.y, way.x) / l : vec2(0.); a.xy += side * width * across / screen; gl_Position = a; s = along; }',
   'precision highp float; varying float s; uniform vec3 colour; uniform float dash;' +
   'void main() { if (dash > 0. && fract(s / dash) > .5) discard; gl_FragColor = vec4(colour, 1.); }');
@@ -120,7 +120,7 @@ const lineProgram = program(head +
 // Sites.
 const sites = floats('sites'), siteBuffer = buffer(sites);
 const siteProgram = program(head + 'attribute vec3 p; uniform float width;' +
-  'void main() { gl_Position = seen(p, .006); gl_PointSize = width; }',
+  'void main() { gl_Position = seen(p, .03); gl_PointSize = width; }',
   'precision highp float; void main() { float r = length(gl_PointCoord - .5); if (r > .5) discard;' +
   'gl_FragColor = vec4(mix(vec3(.11, .15, .2), vec3(1.), step(.36, r)), 1.); }');
 

@@ -80,7 +80,8 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   const FaceDomain domain(model, face, deflection);
   const double tolerance = printed_tolerance(domain, face);
   VoronoiResult result;
-  result.face_area = face_area(model, face).value;
+  const Area area = face_area(model, face);
+  result.face_area = area.value;
   const std::vector<Uv> sites = sites_of(domain, request, result.face_area, tolerance);
   check_sites(domain, sites, tolerance);
   VoronoiOptions options;
@@ -91,7 +92,8 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   result.surface = face.surface;
   result.deflection = deflection;
   result.parameters = domain.box();
-  result.raster = raster_of_cells(domain, result.diagram, kRasterRows, kRasterColumns);
+  if (request.raster) result.raster = raster_of_cells(domain, result.diagram, kRasterRows, kRasterColumns);
+  if (request.certify) result.certificate = certify(domain, result.diagram, area);
   return result;
 }
 

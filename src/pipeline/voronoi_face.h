@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "brep/model.h"
 #include "voronoi/cell_raster.h"
+#include "voronoi/certificate.h"
 #include "voronoi/diagram.h"
 #include "voronoi/dual.h"
 #include "voronoi/sites.h"
@@ -22,6 +24,8 @@ struct VoronoiRequest {
   std::uint64_t seed = 0;  ///< picks the first place
   bool snap = false;       ///< take a place in space that is off the face to the nearest point of it
   double tolerance = 0.0;  ///< see VoronoiOptions
+  bool certify = false;    ///< fill VoronoiResult::certificate
+  bool raster = false;     ///< fill VoronoiResult::raster
 };
 
 struct VoronoiResult {
@@ -31,7 +35,8 @@ struct VoronoiResult {
   UvBox parameters;  ///< the rectangle around the face
   double face_area = 0.0;
   double deflection = 0.0;  ///< of the face's border, as the diagram was built on it
-  CellRaster raster;  ///< for pictures
+  CellRaster raster;        ///< for pictures
+  std::optional<Certificate> certificate;
 };
 
 /// Throws SiteError (an Error(Usage) that knows the site's index) for a site off the face or two equal ones,

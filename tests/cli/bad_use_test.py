@@ -220,6 +220,10 @@ class BadSites(ProgramTest):
     def test_a_site_above_the_face(self):
         self.sites_fail("sites.csv: line 2: ", "x,y,z\n0,0,0.5\n")
 
+    def test_two_equal_sites_of_a_hundred_thousand(self):
+        rows = [f"{-2.9 + 5.8 * i / 400!r},{-2.9 + 5.8 * k / 250!r}\n" for i in range(400) for k in range(250)]
+        self.sites_fail("sites.csv: lines 2 and 100002: ", "u,v\n" + "".join(rows) + rows[0])
+
     def test_two_equal_sites(self):
         self.sites_fail("sites.csv: lines 2 and 4: ", "u,v\n0.1,0.2\n0.5,0.5\n0.1,0.2\n")
 

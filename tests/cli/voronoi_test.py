@@ -4,7 +4,7 @@ import math
 import unittest
 import xml.etree.ElementTree
 
-from program import ProgramTest, sample
+from program import DONE, LEAVES_FACE, ProgramTest, sample
 
 
 def distance(a, b):
@@ -13,7 +13,7 @@ def distance(a, b):
 
 class Voronoi(ProgramTest):
     def diagram(self, name, *arguments):
-        self.succeed("voronoi", sample(name), "-o", "out.json", *arguments)
+        self.succeed("voronoi", sample(name), "-o", "out.json", *arguments, may_warn=LEAVES_FACE)
         return self.read_json("out.json")
 
     def test_the_file_says_what_it_is(self):
@@ -79,8 +79,8 @@ class Voronoi(ProgramTest):
 
     def test_the_same_seed_gives_the_same_bytes(self):
         arguments = ("voronoi", sample("paraboloid.step"), "--count", 9, "--seed", 4)
-        self.succeed(*arguments, "-o", "a.json", "-o", "a.svg")
-        self.succeed(*arguments, "-o", "b.json", "-o", "b.svg")
+        self.succeed(*arguments, "-o", "a.json", "-o", "a.svg", may_warn=LEAVES_FACE)
+        self.succeed(*arguments, "-o", "b.json", "-o", "b.svg", may_warn=LEAVES_FACE)
         for ending in ("json", "svg"):
             self.assertEqual((self.folder / f"a.{ending}").read_bytes(), (self.folder / f"b.{ending}").read_bytes())
 
@@ -93,6 +93,57 @@ class Voronoi(ProgramTest):
         by_name = self.diagram("plate.step", "--face", "Face3", "--count", 3)
         self.assertEqual(by_number, by_name)
         self.assertEqual(by_number["face"], 3)
+
+    def test_one_site_has_the_whole_face(self):
+        self.write("sites.csv", "u,v\n0.3,0.2\n")
+        document = self.diagram("paraboloid.step", "--sites", "sites.csv")
+        self.assertEqual([document["sites"][0]["uv"], document["edges"], document["vertices"]], [[0.3, 0.2], [], []])
+        self.assertEqual(len(document["cells"]), 1)
+        self.assertFalse(document["delaunay"]["is_triangulation"])
+
+    def test_two_sites_share_one_edge(self):
+        self.write("sites.csv", "u,v\n0.3,0.2\n-0.4,0.1\n")
+        document = self.diagram("paraboloid.step", "--sites", "sites.csv")
+        self.assertEqual(len(document["edges"]), 1)
+        self.assertEqual([v["on_boundary"] for v in document["vertices"]], [True, True])
+        self.assertEqual([e["sites"] for e in document["delaunay"]["edges"]], [document["edges"][0]["sites"]])
+
+    def test_paths_that_leave_the_face_are_said_and_no_failure(self):
+        done = self.run_program("voronoi", sample("plate.step"), "--face", 3, "--count", 3, "-o", "out.json")
+        self.assertEqual(done.returncode, DONE)
+        self.assertIn(LEAVES_FACE, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertIn("path_leaves_face", [w["kind"] for w in self.read_json("out.json")["warnings"]])
+
+    def test_a_certificate_states_its_claims(self):
+        printed = self.succeed("voronoi", sample("sphere.step"), "--count", 5, "--certify", "-o", "out.json")
+        certificate = self.read_json("out.json")["certificate"]
+        self.assertTrue(certificate["holds"])
+        self.assertGreater(len(certificate["claims"]), 4)
+        for claim in certificate["claims"]:
+            self.assertTrue(claim["holds"])
+            self.assertLessEqual(claim["measured"], claim["bound"])
+            self.assertIn(f"{claim['name']}: holds", printed)
+        self.assertIn(certificate["result"], printed)
+
+    def test_without_the_flag_there_is_no_certificate(self):
+        self.assertNotIn("certificate", self.diagram("sphere.step", "--count", 2))
+
+    def test_every_member_that_the_interface_names_is_there(self):
+        document = self.diagram("cylinder_tube.step", "--count", 1)
+        self.assertEqual(list(document), ["format", "version", "generator", "input", "face", "unit", "tolerance", "surface",
+                                          "sites", "vertices", "edges", "cells", "warnings", "delaunay"])
+        self.assertGreater(document["tolerance"], 0)
+        self.assertEqual(sorted(document["surface"]), ["type", "u", "u_period", "v", "v_period"])
+        for edge in document["edges"]:
+            self.assertEqual(list(edge), ["id", "sites", "vertices", "closed", "kind", "length", "points", "residual"])
+            self.assertEqual(edge["kind"], "cut_locus")
+            self.assertEqual(edge["vertices"] is None, edge["closed"])
+            self.assertEqual(list(edge["points"][0]), ["uv", "xyz", "radius"])
+        for vertex in document["vertices"]:
+            self.assertEqual(list(vertex), ["id", "uv", "xyz", "radius", "sites", "on_boundary", "residual"])
+        self.assertEqual(list(document["delaunay"]), ["edges", "triangles", "is_triangulation", "why_not"])
+        self.assertIsInstance(document["delaunay"]["why_not"], str)
 
     def test_the_picture_is_well_formed(self):
         self.succeed("voronoi", sample("wave.step"), "--count", 10, "-o", "out.svg")

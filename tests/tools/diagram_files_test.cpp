@@ -115,11 +115,31 @@ TEST(DiagramJson, WhatIsNotFiniteIsNull) {
   EXPECT_TRUE(two.json()["edges"][0]["residual"].is_null());
 }
 
+TEST(DiagramJson, ACertificateNamesWhatFails) {
+  TwoCells two;
+  Certificate certificate;
+  certificate.claims.push_back(
+      {"areas", "they add up", true, 1e-9, 1e-6, CertificateClaim::Offender::None, -1, {}, ""});
+  certificate.claims.push_back(
+      {"stars", "angles grow", false, 0.5, 1e-9, CertificateClaim::Offender::Edge, 7, {0.25, 0.5}, "turns back"});
+  certificate.not_covered = {1};
+  certificate.result = "not proved";
+  const auto j = nlohmann::json::parse(diagram_json(two.source, two.diagram, two.dual, &certificate))["certificate"];
+  EXPECT_FALSE(j["holds"]);
+  EXPECT_EQ(j["result"], "not proved");
+  EXPECT_EQ(j["not_covered"], nlohmann::json({1}));
+  EXPECT_TRUE(j["claims"][0]["holds"]);
+  EXPECT_TRUE(j["claims"][0]["offender"].is_null());
+  EXPECT_EQ(j["claims"][1]["measured"], 0.5);
+  EXPECT_EQ(j["claims"][1]["offender"],
+            (nlohmann::json{{"kind", "edge"}, {"id", 7}, {"uv", {0.25, 0.5}}, {"why", "turns back"}}));
+}
+
 TEST(DiagramJson, CannotBeWrittenIntoAMissingFolder) {
   const TwoCells two;
   const auto path = std::filesystem::temp_directory_path() / "no such folder" / "x.json";
   try {
-    write_diagram_json(two.source, two.diagram, two.dual, path.string());
+    write_diagram_json(two.source, two.diagram, two.dual, nullptr, path.string());
     FAIL() << "no error";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::Unwritable);
