@@ -88,7 +88,7 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   options.tolerance = request.tolerance;
   result.diagram = build_diagram(domain, sites, options);
   check_areas(domain, result.face_area, result.diagram);
-  result.dual = dual_of(domain.surface(), result.diagram);
+  result.dual = dual_of(domain.surface(), result.diagram, request.raster ? DualPaths::Drawn : DualPaths::None);
   result.surface = face.surface;
   result.deflection = deflection;
   result.parameters = domain.box();

@@ -25,7 +25,7 @@ struct VoronoiRequest {
   bool snap = false;       ///< take a place in space that is off the face to the nearest point of it
   double tolerance = 0.0;  ///< see VoronoiOptions
   bool certify = false;    ///< fill VoronoiResult::certificate
-  bool raster = false;     ///< fill VoronoiResult::raster
+  bool raster = false;     ///< fill VoronoiResult::raster and the paths of the dual, for a picture
 };
 
 struct VoronoiResult {

@@ -55,7 +55,7 @@ struct TwoCells {
     }
     raster.box = {{0, 2}, {0, 1}};
     diagram.warnings.push_back({"path_leaves_face", {1}, {1.9, 0.5}, "a \"quoted\" word"});
-    dual.edges.push_back({0, 1, 1.0, {{0.5, 0.1}, {1.5, 0.1}}, {space({0.5, 0.1}), space({1.5, 0.1})}});
+    dual.edges.push_back({0, 1, 0, 1.0, 0.0, true, {{0.5, 0.1}, {1.5, 0.1}}, {space({0.5, 0.1}), space({1.5, 0.1})}});
     dual.why_not = "there are fewer than three sites";
     source = {"geovor test", "two.step", 3, "mm", "plane", raster.box, std::nullopt, 2.0 / 3.0};
   }
