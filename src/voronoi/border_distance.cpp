@@ -18,6 +18,10 @@ constexpr double kRefined = 1e-7;
 // Of a segment: beside a corner, on either side.
 constexpr double kBeside = 1e-9;
 
+// Of a cycle with fewer segments than this each is a side, and the shortest side gets some samples too.
+constexpr int kFewSegments = 64;
+constexpr int kPartsOfFew = 8;
+
 // Most samples of a border: a step that asks for more is too fine for any number of sites.
 constexpr double kMostSamples = 2e6;
 
@@ -29,8 +33,9 @@ std::vector<BorderPlace> sampled(const FaceBorder& border, double step) {
   const double finest = std::max(step, total / kMostSamples);
   std::vector<BorderPlace> places;
   for (int cycle = 0; cycle < border.cycle_count(); ++cycle) {
+    const int least = border.segment_count(cycle) < kFewSegments ? kPartsOfFew : 1;
     for (int k = 0; k < border.segment_count(cycle); ++k) {
-      const int parts = std::max(1, static_cast<int>(std::ceil(border.segment_length(cycle, k) / finest)));
+      const int parts = std::max(least, static_cast<int>(std::ceil(border.segment_length(cycle, k) / finest)));
       for (int i = 0; i < parts; ++i) places.push_back({cycle, k + static_cast<double>(i) / parts});
     }
   }
@@ -59,6 +64,12 @@ BorderPlace BorderDistance::wrapped(BorderPlace place) const {
   const double n = border_.segment_count(place.cycle);
   if (place.parameter >= n) place.parameter -= n;
   return place;
+}
+
+BorderPlace BorderDistance::middle(BorderPlace from, BorderPlace to) const {
+  const double n = border_.segment_count(from.cycle);
+  const double end = to.parameter < from.parameter ? to.parameter + n : to.parameter;
+  return wrapped({from.cycle, 0.5 * (from.parameter + end)});
 }
 
 BorderPlace BorderDistance::before(int k) const {

@@ -37,6 +37,9 @@ class BorderDistance {
   BorderPlace before(int k) const;
   BorderPlace after(int k) const;
 
+  /// Half way, in the border's parameter, from one place on to another of the same cycle.
+  BorderPlace middle(BorderPlace from, BorderPlace to) const;
+
   /// Within [from, to], which holds one turn of sign at most of a function of the place: where it turns from positive
   /// to negative. Converges to corners as well.
   template <class Function>

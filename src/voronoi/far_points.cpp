@@ -16,6 +16,9 @@ namespace {
 // Of the radius: what its values along an edge that is equally far everywhere agree to.
 constexpr double kLevel = 1e-9;
 
+// Along a straight side the distance falls before it rises: a corner's neighbours are moved nearer, half way so often.
+constexpr int kNearer = 4;
+
 // Of the radius: a cut locus no longer than this is a point.
 constexpr double kPoint = 1e-3;
 
@@ -216,7 +219,7 @@ void FarPoints::add_stretch(const DiagramCell& cell, const CellPiece& piece) {
   const size_t n = places.size();
   for (size_t i = piece.from_vertex < 0 ? 0 : 1; i + 1 < n; ++i) {
     const size_t before = i == 0 ? n - 2 : i - 1;
-    if (!(s(i) >= s(before) && s(i) > s(i + 1))) continue;
+    if (!rays[i] || !(s(i) >= s(before) && s(i) > s(i + 1))) continue;
     const auto ray_at = [&](BorderPlace place) {
       return rays_.to(cell.site, border.uv(place), carry(*rays[i], border.xyz(place)));
     };
@@ -224,7 +227,12 @@ void FarPoints::add_stretch(const DiagramCell& cell, const CellPiece& piece) {
       const auto ray = ray_at(place);
       return ray ? ray->T.dot(border_.tangent(place)) : 0.0;
     };
-    if (const auto top = ray_at(border_.turning_point(places[before], places[i + 1], rising))) add_behind_border(*top);
+    BorderPlace from = places[before], to = places[i + 1];
+    for (int k = 0; k < kNearer && !(rising(from) > 0.0); ++k) from = border_.middle(from, places[i]);
+    for (int k = 0; k < kNearer && !(rising(to) < 0.0); ++k) to = border_.middle(places[i], to);
+    // Else a neighbour's ray was another branch, or lost.
+    if (!(rising(from) > 0.0 && rising(to) < 0.0)) continue;
+    if (const auto top = ray_at(border_.turning_point(from, to, rising))) add_behind_border(*top);
   }
 }
 
@@ -279,7 +287,15 @@ void FarPoints::add_behind_border(const SiteRay& ray) {
     outer = s, at_outer = *here;
   }
   const auto m = place ? at(*place) : std::nullopt;
-  if (m) points_.push_back({m->uv, m->x, m->polar.s});
+  if (m && is_shortest(*m)) points_.push_back({m->uv, m->x, m->polar.s});
+}
+
+// The rays along the border were carried from one sample to the next: where the site has several geodesics to a place,
+// not always the shortest.
+bool FarPoints::is_shortest(const SiteRay& ray) {
+  if (!nearby_) nearby_.emplace(rays_);
+  const std::vector<SiteRay> nearest = nearby_->nearest(ray.uv);
+  return !nearest.empty() && nearest.front().polar.s >= ray.polar.s * (1.0 - kLevel);
 }
 
 // Of a closed surface that has neither vertex nor edge the geodesics from the site all meet again in one point, their

@@ -6,6 +6,7 @@
 
 #include "voronoi/border_distance.h"
 #include "voronoi/diagram.h"
+#include "voronoi/nearby_sites.h"
 #include "voronoi/site_ray.h"
 
 namespace geovor {
@@ -40,6 +41,7 @@ class FarPoints {
   void add_middle(const DiagramEdge& e);
   void add_stretch(const DiagramCell& cell, const CellPiece& piece);
   void add_behind_border(const SiteRay& ray);
+  bool is_shortest(const SiteRay& ray);
   void add_opposite_point();
   void put_in_order();
   std::vector<BorderPlace> stretch_places(const CellPiece& piece) const;
@@ -50,6 +52,7 @@ class FarPoints {
   const VoronoiDiagram& diagram_;
   const BorderDistance& border_;
   Xyz tie_;
+  std::optional<NearbySites> nearby_;  ///< made when first needed
   std::vector<FarPoint> points_;
 };
 

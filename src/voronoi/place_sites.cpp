@@ -32,8 +32,11 @@ constexpr double kCoarse = 0.05;
 
 // The point that the first place is far from lies inside the border by this part of the face's extent; by less, halved
 // so often at most, where the face is narrow there.
-constexpr double kInside = 0.01;
+constexpr double kInside = 0.15;
 constexpr int kMostHalvings = 20;
+
+// Directions that are tried for a point whose diagram can be finished.
+constexpr int kMostTurns = 8;
 
 // A grid on which a closed surface is searched for its extreme point, lines in each direction.
 constexpr int kGrid = 64;
@@ -129,16 +132,14 @@ class Batch {
 class SitePlacer {
  public:
   SitePlacer(const FaceDomain& domain, std::uint64_t seed)
-      : domain_(domain),
-        border_(domain),
-        direction_(direction_of(seed)),
-        tie_(direction_of(~seed)),
-        size_(face_size(domain)),
-        largest_(size_) {
+      : domain_(domain), border_(domain), tie_(direction_of(~seed)), size_(face_size(domain)), largest_(size_) {
     const BorderDistance border(domain.surface(), border_, kBorderStep * size_);
-    sites_ = {border.empty() ? extreme_of_closed(domain.surface(), domain.box(), direction_)
-                             : just_inside(domain, border, direction_)};
-    const std::vector<FarPoint> far = far_points();
+    std::vector<FarPoint> far;
+    for (int turn = 0; turn < kMostTurns && far.empty(); ++turn) {
+      const Xyz n = direction_of(seed + static_cast<std::uint64_t>(turn));
+      sites_ = {border.empty() ? extreme_of_closed(domain.surface(), domain.box(), n) : just_inside(domain, border, n)};
+      far = far_points();
+    }
     if (far.empty()) throw_narrow();
     sites_ = {domain.to_principal(far.front().uv)};
   }
@@ -181,7 +182,7 @@ class SitePlacer {
 
   const FaceDomain& domain_;
   FaceBorder border_;
-  Xyz direction_, tie_;
+  Xyz tie_;
   double size_, largest_;
   std::vector<Uv> sites_;
 };
