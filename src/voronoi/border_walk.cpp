@@ -10,10 +10,11 @@
 namespace geovor {
 namespace {
 
-// A segment of the border is taken in parts that are seen from the site under no more than about this angle, but none
-// shorter than a part of the segment: the border may run through the site. Five nodes leave 1e-9 of such a part,
-// also behind a bump, where y changes faster than the distance.
-constexpr double kBorderPart = 0.2;
+// A segment of the border is taken in parts that are seen from the site under no more than about this angle, where the
+// cell is flat for its size and where it is not, but none shorter than a part of the segment: the border may run
+// through the site. Five nodes leave 1e-9 of such a part.
+constexpr double kBorderPart = 0.1;
+constexpr double kLongestPart = 0.5;
 constexpr double kShortestPart = 1e-3;
 constexpr int kNodes = 5;
 
@@ -32,6 +33,7 @@ class Walker {
   const SiteRays& rays_;
   int site_;
   std::optional<SiteRay> last_;
+  double bend_ = 1.0;  ///< what the last sector lacks of s^2 / 2, as a part of it
   ChartPiece seen_;
 };
 
@@ -59,14 +61,17 @@ void Walker::segment(const FaceBorder& border, int cycle, int k, Interval f) {
   const double length =
       norm(surface.jet(border.uv_in_segment(cycle, k, f.middle())), border.direction({cycle, k + f.middle()}));
   for (double done = f.lo; done < f.hi && seen_.found;) {
-    const double off = last_ ? last_->polar.s : length;
-    const double part = std::min(f.hi - done, std::max(kBorderPart * off / length, kShortestPart));
+    // Where y is small, angles change faster than the distance tells.
+    const double off = last_ ? std::min(last_->polar.s, std::abs(last_->y)) : length;
+    const double angle = std::min(kLongestPart, kBorderPart / std::sqrt(std::sqrt(bend_)));
+    const double part = std::min(f.hi - done, std::max(angle * off / length, kShortestPart));
     for (int i = 0; i < kNodes; ++i) {
       const double at = done + 0.5 * (1.0 + rule.nodes[i]) * part;
       const Uv m = border.uv_in_segment(cycle, k, at);
       seen_.found = step_to(m);
       if (!seen_.found) return;
       const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, RayParts::WithSector);
+      bend_ = std::abs(2.0 * end.sector / (end.polar.s * end.polar.s) - 1.0);
       const Xyz along = push_forward(surface.jet(m), border.direction({cycle, k + at}));
       seen_.area += 0.5 * rule.weights[i] * part * last_->N.dot(along) / last_->y * end.sector;
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numeric/gauss_legendre.h"
 #include "voronoi/bisector.h"
 #include "voronoi/site_ray.h"
 
@@ -23,9 +24,17 @@ constexpr int kDeepest = 8;
 // Nearer to a conjugate point (y / radius) than this, angles can't be had from places.
 constexpr double kConjugate = 1e-5;
 
-// Stored points are walked over in stretches no longer than this part of the radius, and seen from either site under no
-// more than this angle: Simpson's rule then leaves less than 1e-7 of the area.
-constexpr double kStretch = 0.25;
+// Stored points are walked over in stretches no longer than a part of the radius, and seen from either site under no
+// more than that angle. In a flat cell Simpson's rule is exact; with q, what the sector lacks of s^2 / 2, its error
+// goes like q times the fourth power of the stretch. With these numbers it is some 1e-8 of the area.
+constexpr double kStretch = 0.05;
+constexpr double kLongestStretch = 0.4;
+
+// Points nearer to each other than this part of the radius do not tell a direction.
+constexpr double kSeen = 1e-8;
+
+// Rays on the way from the last regular point to a free end.
+constexpr int kEndNodes = 5;
 
 // The place between two points is corrected until it changes by less than this part of the radius.
 constexpr double kSettled = 1e-13;
@@ -164,6 +173,14 @@ bool Walker::correct(Station& m, const Xyz& along) const {
   return radius > 0.0;
 }
 
+/// dR/dt of the cell's border s = R(t); zero at a free end.
+double slope_in_angle(const Station& s, int side) {
+  const Polar& p = s.rays[side].polar;
+  const Plane2 e(std::cos(p.t), std::sin(p.t));
+  const double slope = s.regular ? p.s * s.slope[side].dot(e) / cross2(e, s.slope[side]) : 0.0;
+  return std::isfinite(slope) ? slope : 0.0;
+}
+
 void Walker::go(const Station& a, const Station& b, int depth) {
   const double h = arc_length(a, b);
   const Xyz along = (b.rays[0].x - a.rays[0].x).normalized();
@@ -218,29 +235,24 @@ void Walker::note_turn(const Station& a, const Station& b) {
 }
 
 // Towards a free end the angles go like the square root of the way, but the cell's border there is a smooth curve
-// s = R(t), with R' = 0 at the end: Simpson's rule in t, each site for itself.
+// s = R(t), with R' = 0 at the end: a cubic in t, each site for itself.
 void Walker::go_to_free_end(const Station& a, const Station& b) {
-  const auto slope_in_angle = [](const Station& s, int side) {
-    const Polar& p = s.rays[side].polar;
-    const Plane2 e(std::cos(p.t), std::sin(p.t));
-    return s.regular ? p.s * s.slope[side].dot(e) / cross2(e, s.slope[side]) : 0.0;
-  };
-  std::array<Polar, 2> aim;
-  std::array<double, 2> turn;
+  const GaussRule& rule = gauss_legendre(kEndNodes);
   for (int side = 0; side < 2; ++side) {
     const Polar &p = a.rays[side].polar, &q = b.rays[side].polar;
-    turn[side] = wrap_angle(q.t - p.t);
-    const double bend = turn[side] / 8.0 * (slope_in_angle(a, side) - slope_in_angle(b, side));
-    aim[side] = {0.5 * (p.s + q.s) + (std::isfinite(bend) ? bend : 0.0), p.t + 0.5 * turn[side]};
-  }
-  const Station m = at(aim[0], aim[1]);
-  if (!found(m)) {
-    complete_ = false;
-    return;
-  }
-  for (int side = 0; side < 2; ++side) {
-    const double sum = a.rays[side].sector + 4.0 * m.rays[side].sector + b.rays[side].sector;
-    out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * turn[side] / 6.0;
+    const double turn = wrap_angle(q.t - p.t), from = turn * slope_in_angle(a, side),
+                 to = turn * slope_in_angle(b, side);
+    double sum = 0.0;
+    for (int i = 0; i < kEndNodes; ++i) {
+      const double k = 0.5 * (1.0 + rule.nodes[i]), rest = 1.0 - k;
+      const double s = rest * rest * (1.0 + 2.0 * k) * p.s + k * k * (3.0 - 2.0 * k) * q.s + k * rest * rest * from -
+                       k * k * rest * to;
+      const RayEnd ray = trace_ray(surface_, diagram_.sites[side == 0 ? edge_.left : edge_.right].uv,
+                                   {s, p.t + k * turn}, RayParts::WithSector);
+      complete_ = complete_ && ray.found;
+      sum += 0.5 * rule.weights[i] * ray.sector;
+    }
+    out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * turn;
   }
 }
 
@@ -276,10 +288,17 @@ void Walker::stretch(const Station& a, const Station& b, bool to_free_end) {
     go_to_free_end(a, b);
     return;
   }
-  out_.left_is_left = out_.left_is_left && (a.tangent + b.tangent).dot(way) >= 0.0;
+  if (way.norm() > kSeen * a.radius()) out_.left_is_left = out_.left_is_left && (a.tangent + b.tangent).dot(way) >= 0.0;
   if (!looked_between_) look_between(a, b);
   looked_between_ = true;
   go(a, b, 0);
+}
+
+/// How long a stretch may be that begins at the rays' ends, as a part of the radius.
+double stretch_from(const Station& s) {
+  double q = 0.0;
+  for (const RayEnd& ray : s.rays) q = std::max(q, std::abs(2.0 * ray.sector / (ray.polar.s * ray.polar.s) - 1.0));
+  return std::min(kLongestStretch, kStretch / std::sqrt(std::sqrt(q)));
 }
 
 /// Whether point i has to end a stretch that begins at `start`, because the next point would be too far.
@@ -288,7 +307,8 @@ bool Walker::ends_stretch(int i, const Station& start, const EdgePoint& next) co
   if (i == last || (i + 1 == last && free_end(edge_.to)) || (i == 1 && free_end(edge_.from))) return true;
   const double turn = std::max(std::abs(wrap_angle(next.left_angle - start.rays[0].polar.t)),
                                std::abs(wrap_angle(next.right_angle - start.rays[1].polar.t)));
-  return !(turn <= kStretch && (next.xyz - start.rays[0].x).norm() <= kStretch * start.radius());
+  const double longest = stretch_from(start);
+  return !(turn <= longest && (next.xyz - start.rays[0].x).norm() <= longest * start.radius());
 }
 
 EdgeWalk Walker::walk() {

@@ -25,8 +25,9 @@ enum class RayParts { EndAlone, WithSector };
 /// Beyond the surface's domain the outermost piece is continued.
 RayEnd trace_ray(const Surface& surface, Uv site, Polar to, RayParts parts = RayParts::EndAlone);
 
-/// Of the trace, relative to the length: below the 1e-12 that diagrams are held to, whatever the order of errors.
-inline constexpr double kRetraceTolerance = 1e-13;
+/// Of the trace, relative to the length: with what an integrator may add to it, and on two sides, still well below the
+/// 1e-12 that diagrams are held to.
+inline constexpr double kRetraceTolerance = 2e-14;
 
 /// The distance from the ray's site to a place of space next to the ray's end. The error is of the second order in what
 /// lies between the two.
