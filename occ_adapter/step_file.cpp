@@ -43,9 +43,16 @@ void transfer(STEPControl_Writer& writer, const NamedShape& named) {
   if (writer.Transfer(named.shape, STEPControl_AsIs) != IFSelect_RetDone) {
     throw Error(ErrorCode::Unwritable, "OpenCASCADE can't turn the shape into STEP; write another format");
   }
+  std::vector<Handle(StepBasic_Product)> products;
   for (int i = before + 1; i <= writer.Model()->NbEntities(); ++i) {
     const auto product = Handle(StepBasic_Product)::DownCast(writer.Model()->Value(i));
-    if (!product.IsNull()) product->SetName(text(named.name)), product->SetId(text(named.name));
+    if (!product.IsNull()) products.push_back(product);
+  }
+  // A compound of edges becomes an assembly: its own product, then one an edge.
+  const bool assembly = products.size() == 1 + named.parts.size();
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    const std::string& name = assembly && i > 0 ? named.parts[i - 1].second : named.name;
+    products[i]->SetName(text(name)), products[i]->SetId(text(name));
   }
   const Handle(Transfer_FinderProcess) made = writer.WS()->TransferWriter()->FinderProcess();
   for (const auto& [part, name] : named.parts) {

@@ -2,6 +2,7 @@
 
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 
 #include "occ_adapter/occ_write_private.h"
@@ -35,6 +36,21 @@ occ::NamedShape cells_shape(const CadSheet& sheet, const SheetSource& source) {
   return cells;
 }
 
+/// In one compound: OpenCASCADE takes a time for each shape that grows with all that it has written before.
+occ::NamedShape edges_shape(const std::vector<CadCurve>& curves) {
+  if (curves.size() == 1) return {occ::edge_of(curves.front()), curves.front().name, {}};
+  const BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  occ::NamedShape edges{compound, "edges", {}};
+  for (const CadCurve& curve : curves) {
+    const TopoDS_Edge edge = occ::edge_of(curve);
+    builder.Add(compound, edge);
+    edges.parts.emplace_back(edge, curve.name);
+  }
+  return edges;
+}
+
 }  // namespace
 
 void write_step(const CadSheet& sheet, const SheetSource& source, const std::string& path) {
@@ -42,7 +58,7 @@ void write_step(const CadSheet& sheet, const SheetSource& source, const std::str
   for (const CadCurve& curve : sheet.curves) require_finite(curve);
   occ::write_step_file({path, source.unit, "geodesic Voronoi cells", true, true}, [&] {
     std::vector<occ::NamedShape> shapes = {cells_shape(sheet, source)};
-    for (const CadCurve& curve : sheet.curves) shapes.push_back({occ::edge_of(curve), curve.name, {}});
+    if (!sheet.curves.empty()) shapes.push_back(edges_shape(sheet.curves));
     return shapes;
   });
 }

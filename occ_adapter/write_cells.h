@@ -14,8 +14,9 @@ struct SheetSource {
   std::string unit;  ///< of the model's lengths, and of the file that is written
 };
 
-/// A product "cells", a shell of named faces that share their edges, and a product a curve, with its name. The file at
-/// `path` is complete or absent. Throws Error(Unwritable), and Error(Unreadable) where the input can't be read again.
+/// A product "cells", a shell of named faces that share their edges, and a product "edges", an assembly of one product
+/// a curve, with its name (of one curve alone: only that). The file at `path` is complete or absent. Throws
+/// Error(Unwritable), and Error(Unreadable) where the input can't be read again.
 void write_step(const CadSheet& sheet, const SheetSource& source, const std::string& path);
 
 }  // namespace geovor
