@@ -10,6 +10,7 @@
 #include "voronoi/cell_areas.h"
 #include "voronoi/cell_start.h"
 #include "voronoi/cells.h"
+#include "voronoi/dense_edge.h"
 #include "voronoi/edge_tracer.h"
 #include "voronoi/path_checks.h"
 #include "voronoi/seam_check.h"
@@ -277,13 +278,10 @@ DiagramEdge DiagramBuilder::written(const Edge& e) const {
   edge.from = e.start.vertex;
   edge.to = e.end.vertex;
   edge.kind = edge.left == edge.right ? EdgeKind::CutLocus : EdgeKind::Bisector;
-  for (const BisectorPoint& m : tracer_.dense(e.points, diagram_.tolerance)) {
-    if (!edge.points.empty()) edge.length += (m.position() - edge.points.back().xyz).norm();
-    // At the free end of a cut locus the angles change as a square root does; what is written is zero.
-    const bool ends = m.left.y == 0.0;
-    const BisectorSlope d = ends ? BisectorSlope{-1.0, 0.0, 0.0} : bisector_slope(m);
-    edge.points.push_back({domain_.to_principal(m.left.uv), m.position(), m.radius(), m.left.polar.t, m.right.polar.t,
-                           d.radius, d.left_angle, d.right_angle});
+  edge.points = dense_edge(rays_, e.points, diagram_.tolerance);
+  for (size_t i = 0; i < edge.points.size(); ++i) {
+    edge.points[i].uv = domain_.to_principal(edge.points[i].uv);
+    if (i > 0) edge.length += (edge.points[i].xyz - edge.points[i - 1].xyz).norm();
   }
   return edge;
 }

@@ -19,7 +19,7 @@ constexpr double kFirstStep = 0.1;
 constexpr double kForesight = 2.0;
 
 // Below this part of the longest step the tracer is stuck.
-constexpr double kShortestStep = 1e-7;
+constexpr double kShortestStep = 1e-5;
 
 // A step may turn the edge by this much (radians), and swing the rays from the sites by that much, which is far where
 // they spread little: behind bumps, near the sites. A piece up to a foreseen vertex has no swing to heed.
@@ -34,8 +34,10 @@ constexpr double kLittleTurn = 0.1;
 constexpr double kApproach = 0.3;
 
 // With less than this between the rays of a cut locus (radians) its conjugate point is as near as the square of it, in
-// curvature radii, and the rest of the way is straight.
-constexpr double kOneGeodesic = 0.02;
+// curvature radii, and the rest of the way is straight. Where Newton's method gives up before, as it does where the
+// rays spread little, it is looked for from farther away.
+constexpr double kOneGeodesic = 0.03;
+constexpr double kNearlyOneGeodesic = 0.3;
 
 // Between two points of an edge an angle changes by what its slopes at both say, but for this part of it; more means
 // that Newton's method went over to another geodesic of the site. A change too small to tell is none.
@@ -67,9 +69,6 @@ constexpr double kNoRoom = 1e-6;
 constexpr double kBeside = 0.3;
 constexpr double kBackAtStart = 1e-9;
 
-// A dense edge has no more points than two to this power between two traced ones.
-constexpr int kMostHalvings = 12;
-
 double chord(const BisectorPoint& a, const BisectorPoint& b) { return (b.position() - a.position()).norm(); }
 
 double turn(const BisectorPoint& a, const BisectorPoint& b) {
@@ -77,9 +76,7 @@ double turn(const BisectorPoint& a, const BisectorPoint& b) {
   return std::atan2(s.cross(t).norm(), s.dot(t));
 }
 
-bool is_free_end(const BisectorPoint& m) {
-  return m.left.site == m.right.site && m.left.polar.t == m.right.polar.t;
-}
+bool is_free_end(const BisectorPoint& m) { return m.left.site == m.right.site && m.left.polar.t == m.right.polar.t; }
 
 /// How far the chord is from the edge: that of a circle.
 double sag_of(const BisectorPoint& a, const BisectorPoint& b) {
@@ -109,8 +106,8 @@ bool goes_on(const BisectorPoint& a, const BisectorPoint& b) {
          smooth(b.right.polar.t - a.right.polar.t, d.right_angle, e.right_angle);
 }
 
-bool near_conjugate_point(const BisectorPoint& m) {
-  return m.left.site == m.right.site && std::abs(wrap_angle(m.left.polar.t - m.right.polar.t)) < kOneGeodesic;
+bool near_conjugate_point(const BisectorPoint& m, double between) {
+  return m.left.site == m.right.site && std::abs(wrap_angle(m.left.polar.t - m.right.polar.t)) < between;
 }
 
 }  // namespace
@@ -149,16 +146,17 @@ TracedEdge EdgeTracer::trace(const BisectorPoint& start, bool on_border) const {
   walk.step = kFirstStep * start.radius();
   for (int i = 0; i < kMostSteps; ++i) {
     const Step outcome = advance(walk);
-    if (outcome == Step::Ended) break;
+    if (outcome == Step::Ended) return walk.edge;
     if (outcome == Step::Failed) walk.step *= 0.5;
     if (!(walk.step > kShortestStep * longest_step(walk.current()))) break;
   }
+  if (near_conjugate_point(walk.current(), kNearlyOneGeodesic)) end_freely(walk);
   return walk.edge;
 }
 
 EdgeTracer::Step EdgeTracer::advance(Walk& walk) const {
   const BisectorPoint cur = walk.current();
-  if (near_conjugate_point(cur) && end_freely(walk)) return Step::Ended;
+  if (near_conjugate_point(cur, kOneGeodesic) && end_freely(walk)) return Step::Ended;
   walk.step = std::min(walk.step, longest_step(cur));
   const double h = walk.step;
   if (!(h > 0.0)) return Step::Failed;
@@ -248,14 +246,15 @@ std::optional<EdgeTracer::Vertex> EdgeTracer::find_vertex(const BisectorPoint& f
   BisectorCoordinates c = coordinates(guess);
   for (int i = 0; i < kMostRivalsInTurn; ++i) {
     const auto solved = solve_vertex(
-        rays_,
-        {{{from.left.site, c.left_angle}, {from.right.site, c.right_angle}, {rival.site, rival.polar.t}}}, c.radius);
+        rays_, {{{from.left.site, c.left_angle}, {from.right.site, c.right_angle}, {rival.site, rival.polar.t}}},
+        c.radius);
     if (!solved) return std::nullopt;
     const auto& r = *solved;
     const Xyz way = r[0].x - from.position();
-    if (!(from.tangent().dot(way) > kOneVertex * c.radius) || way.norm() > reach) return std::nullopt;
-    if (same_generator(r[0], r[1]) || same_generator(r[0], r[2]) || same_generator(r[1], r[2])) return std::nullopt;
     const double radius = r[0].polar.s;
+    if (!(from.tangent().dot(way) > kOneVertex * c.radius) || way.norm() > reach) return std::nullopt;
+    if (!(std::abs(radius - from.radius()) <= reach)) return std::nullopt;  // no distance changes faster than one moves
+    if (same_generator(r[0], r[1]) || same_generator(r[0], r[2]) || same_generator(r[1], r[2])) return std::nullopt;
     const auto nearer = sites_.nearer_than(radius * (1.0 + kOneVertex), r[0].uv, {r[0], r[1], r[2]});
     if (nearer.empty() || nearer.front().polar.s >= radius * (1.0 - kOneVertex)) {
       Vertex vertex{{r.begin(), r.end()}, {r[0], r[1]}};
@@ -322,8 +321,8 @@ bool EdgeTracer::close(Walk& walk, double h) const {
   };
   if (!same(cur.left, start.left, d.left_angle) || !same(cur.right, start.right, d.right_angle)) return false;
   const Xyz normal = start.tangent();
-  const auto back = correct_bisector(rays_, start.left.site, start.right.site, guess,
-                                     {normal, normal.dot(start.position())});
+  const auto back =
+      correct_bisector(rays_, start.left.site, start.right.site, guess, {normal, normal.dot(start.position())});
   if (!back || chord(*back, start) > kBackAtStart * start.radius()) return false;
   walk.edge.points.push_back(start);
   walk.edge.end = TraceEnd::Closed;
@@ -395,23 +394,6 @@ std::optional<BisectorPoint> EdgeTracer::border_point(const BisectorPoint& near,
     place.parameter -= n * std::floor(place.parameter / n);
   }
   return std::nullopt;
-}
-
-std::vector<BisectorPoint> EdgeTracer::dense(const std::vector<BisectorPoint>& points, double sag) const {
-  std::vector<BisectorPoint> out = {points.front()};
-  const auto fill = [&](const auto& self, const BisectorPoint& b, int halvings) -> void {
-    const BisectorPoint a = out.back();
-    if (halvings > 0 && sag_of(a, b) > sag) {
-      if (const auto middle = halfway(a, b)) {
-        self(self, *middle, halvings - 1);
-        self(self, b, halvings - 1);
-        return;
-      }
-    }
-    out.push_back(b);
-  };
-  for (size_t i = 1; i < points.size(); ++i) fill(fill, points[i], kMostHalvings);
-  return out;
 }
 
 }  // namespace geovor

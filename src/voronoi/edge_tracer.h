@@ -44,9 +44,6 @@ class EdgeTracer {
   /// Walks in the direction of start.tangent(). `on_border`: the start lies on the face's border and the walk goes in.
   TracedEdge trace(const BisectorPoint& start, bool on_border) const;
 
-  /// The points with others between them, so many that no chord is farther from the edge than `sag`.
-  std::vector<BisectorPoint> dense(const std::vector<BisectorPoint>& points, double sag) const;
-
  private:
   struct Walk;
   struct Vertex {
