@@ -21,7 +21,7 @@ constexpr double kLeastAdvance = 0.5;
 
 // With each node the polynomial changes by a falling amount; what the last one leaves is guessed from the last two
 // changes, times this.
-constexpr double kMargin = 30.0;
+constexpr double kMargin = 300.0;
 
 // An error of an angle counts by this part of the arc that it makes.
 constexpr double kAngleShare = 0.03;

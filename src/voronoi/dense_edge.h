@@ -12,10 +12,11 @@ namespace geovor {
 /// smooth where the surface is: between points that lie close enough it is the polynomial that has their places and
 /// slopes (Hermite's interpolation over up to eight of them), which costs one evaluation of the surface a point. Where
 /// the polynomials do not settle to kDensePoint, and on surfaces with knots, points come from correct_bisector(). uv
-/// runs on over seams. REQUIRES: at least two points, each a step of the tracer from the next
+/// runs on over seams.
+/// REQUIRES: at least two points, each a step of the tracer from the next
 std::vector<EdgePoint> dense_edge(const SiteRays& rays, const std::vector<BisectorPoint>& traced, double sag);
 
 /// What interpolation may miss an edge by, relative to its radius.
-inline constexpr double kDensePoint = 1e-13;
+inline constexpr double kDensePoint = 5e-14;
 
 }  // namespace geovor
