@@ -151,11 +151,12 @@ function matrix([x, y, z, w]) {  // columns
 function rotate(dx, dy) {
   const angle = Math.hypot(dx, dy);
   if (angle === 0) return;
+  touched = true;
   const q = times(axis(dy / angle, dx / angle, 0, angle), view.q), l = Math.hypot(...q);
   view.q = q.map(x => x / l);
   redraw();
 }
-let view = start(), shown = { cells: true, edges: true, sites: true }, over = -1, marked = -1, pending = false;
+let view = start(), shown = { cells: true, edges: true, sites: true }, over = -1, marked = -1, pending = false, touched = false;
 
 function place() {  // at zoom 1 the unit ball fills the smaller side
   const s = view.zoom, w = canvas.width, h = canvas.height, m = Math.min(w, h);
@@ -211,7 +212,11 @@ function clear(r, g, b) {
 function draw() {
   pending = false;
   const unit = window.devicePixelRatio || 1, w = Math.round(canvas.clientWidth * unit), h = Math.round(canvas.clientHeight * unit);
-  if (canvas.width !== w || canvas.height !== h) canvas.width = w, canvas.height = h;
+  if (canvas.width !== w || canvas.height !== h) {
+    canvas.width = w;
+    canvas.height = h;
+    if (!touched) view = start();
+  }
   clear(.957, .961, .969);
   if (shown.cells) paintCells(false);
   paintLines();
@@ -296,12 +301,14 @@ canvas.addEventListener('wheel', e => {
   zoomAt(Math.exp(-e.deltaY * (e.deltaMode ? .05 : .0015)), e.clientX, e.clientY);
 }, { passive: false });
 function move(dx, dy) {
+  touched = true;
   const m = .5 * view.zoom * Math.min(canvas.clientWidth, canvas.clientHeight);
   view.x += dx / m;
   view.y -= dy / m;
   redraw();
 }
 function zoomAt(factor, x, y) {  // the place under the pointer stays
+  touched = true;
   const zoom = Math.min(Math.max(view.zoom * factor, .2), 500), m = .5 * Math.min(canvas.clientWidth, canvas.clientHeight);
   const px = (x - canvas.clientWidth / 2) / m, py = -(y - canvas.clientHeight / 2) / m;
   view.x += px / zoom - px / view.zoom;
@@ -313,7 +320,7 @@ canvas.addEventListener('keydown', e => {
   const step = .12, middle = [canvas.clientWidth / 2, canvas.clientHeight / 2];
   const keys = { ArrowLeft: () => rotate(-step, 0), ArrowRight: () => rotate(step, 0), ArrowUp: () => rotate(0, -step),
     ArrowDown: () => rotate(0, step), '+': () => zoomAt(1.2, ...middle), '=': () => zoomAt(1.2, ...middle),
-    '-': () => zoomAt(1 / 1.2, ...middle), r: () => { view = start(); }, Home: () => { view = start(); },
+    '-': () => zoomAt(1 / 1.2, ...middle), r: () => { view = start(); touched = false; }, Home: () => { view = start(); touched = false; },
     e: () => { shown.edges = !shown.edges; }, s: () => { shown.sites = !shown.sites; }, c: () => { shown.cells = !shown.cells; },
     Escape: () => { marked = -1; tell(); } };
   const act = keys[e.key] || keys[e.key.toLowerCase()];
