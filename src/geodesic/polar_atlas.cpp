@@ -74,8 +74,7 @@ bool in_box(const Surface& surface, const UvBox& box, Uv p) {
 }  // namespace
 
 bool is_meant(const AtlasHit& hit, const Polar& geodesic) {
-  return hit.plain && std::abs(geodesic.s - hit.at.s) <= kHitError * geodesic.s &&
-         turn_from(geodesic.t, hit.at.t) <= 0.5 * hit.turn;
+  return hit.plain && std::abs(geodesic.s - hit.at.s) <= hit.error && turn_from(geodesic.t, hit.at.t) <= 0.5 * hit.turn;
 }
 
 double PolarAtlas::Ray::y_at(double s) const {
@@ -288,19 +287,22 @@ std::optional<AtlasHit> PolarAtlas::look(const Part& part, const Xyz& x) const {
   if (!(std::abs(b) <= part.turn * (std::abs(y) + y_change) + slack)) return std::nullopt;
   if (!(above <= kOtherSheet * p.step)) return std::nullopt;
   const double turn = part.turn + slack / std::max(std::abs(y), slack), aside = std::clamp(b / y, -turn, turn);
-  return AtlasHit{{s, ray.t + (std::isfinite(aside) ? aside : 0.0)},
-                  turn,
-                  y_change < kPlain * std::abs(y) && above < kPlain * p.step};
+  const bool plain = y_change < kPlain * std::abs(y) && above < kPlain * p.step;
+  // About the foot geodesic circles have the curvature y'/y.
+  const double bend = plain ? 0.5 * b * b * ((1.0 - k) * p.dy + k * q.dy) / y : 0.0;
+  const Polar at{std::max(s + bend, 0.5 * s), ray.t + (std::isfinite(aside) ? aside : 0.0)};
+  return AtlasHit{at, std::abs(b), kHitError * at.s + 0.5 * std::abs(bend), turn, plain};
 }
 
 std::vector<AtlasHit> PolarAtlas::hits(const Xyz& x, double limit) const {
   std::vector<AtlasHit> all;
   for (const int i : tree_.holding(x)) {
     const auto hit = look(parts_[i], x);
-    if (hit && hit->at.s <= limit) all.push_back(*hit);
+    if (hit && hit->at.s - hit->error <= limit) all.push_back(*hit);
   }
-  std::sort(all.begin(), all.end(),
-            [](const AtlasHit& a, const AtlasHit& b) { return std::tie(a.at.s, a.at.t) < std::tie(b.at.s, b.at.t); });
+  std::sort(all.begin(), all.end(), [](const AtlasHit& a, const AtlasHit& b) {
+    return std::tie(a.off, a.at.s, a.at.t) < std::tie(b.off, b.at.s, b.at.t);
+  });
   return all;
 }
 

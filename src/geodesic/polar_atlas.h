@@ -14,11 +14,14 @@ namespace geovor {
 
 /// Where a geodesic seems to end at the target.
 struct AtlasHit {
-  Polar at;           ///< to kHitError of the length
-  double turn = 0.0;  ///< to the next geodesic that was followed, or more where places are not that exact
-  bool plain = true;  ///< far from conjugate points, and not on another sheet: one geodesic must be meant
+  Polar at;
+  double off = 0.0;    ///< the target lies so far beside the ray
+  double error = 0.0;  ///< of at.s, as a rule
+  double turn = 0.0;   ///< to the next geodesic that was followed, or more where places are not that exact
+  bool plain = true;   ///< far from conjugate points, and not on another sheet: one geodesic must be meant
 };
 
+/// Least error of a hit, in parts of its length.
 inline constexpr double kHitError = 0.03;
 
 /// Whether the geodesic with these polar coordinates may be the one that the hit stands for.
@@ -39,8 +42,8 @@ class PolarAtlas {
   /// beyond) or the rim, as many as are needed to leave no gap. REQUIRES: the surface outlives the atlas
   PolarAtlas(const Surface& surface, Uv from, const AtlasOptions& options);
 
-  /// Where geodesics not longer than `limit` seem to end at x, by length. Neighbours often hit with the same geodesic
-  /// in mind.
+  /// Where geodesics that may be not longer than `limit` seem to end at x, those that pass it by nearest first.
+  /// Neighbours often hit with the same geodesic in mind.
   std::vector<AtlasHit> hits(const Xyz& x, double limit) const;
 
   /// The length that was asked for.

@@ -19,6 +19,9 @@ constexpr double kAhead = 2.0;
 
 constexpr double kAtlasAhead = 1.25;
 
+// Lengths of balls that are looked at for the nearest site, in chords: neighbours' geodesics are hardly longer.
+constexpr double kHardlyLonger = 1.02, kGrowth = 1.4, kFarLonger = 4.0;
+
 // A rough ray longer than the limit by this is longer. Its length is good to kRoughly as a rule, but from a shot that
 // is one step of low order it may err by some 1e-4 where the curvature has its peak half way.
 constexpr double kClearly = 1.01;
@@ -64,6 +67,7 @@ NearbySites::NearbySites(const SiteRays& rays)
       closed_form_(has_closed_form(rays.surface())),
       tree_(positions(rays)),
       known_(static_cast<std::size_t>(rays.count())) {
+  for (int i = 0; i < rays.count(); ++i) extent_ = std::max(extent_, (tree_.point(i) - tree_.point(0)).norm());
   if (closed_form_) return;
   survey_.emplace(rays.surface(), survey_box(rays), kSurveyCells);
   atlases_.resize(known_.size());
@@ -170,7 +174,7 @@ void NearbySites::add_searched(const Query& q, int site, const std::vector<SiteR
     return std::any_of(settled.begin(), settled.end(), [&](const SiteRay& r) { return is_meant(hit, r.polar); });
   };
   std::vector<AtlasHit> open;
-  for (const AtlasHit& hit : atlas(site, q.limit).hits(q.x, (1.0 + kHitError) * q.limit)) {
+  for (const AtlasHit& hit : atlas(site, q.limit).hits(q.x, q.limit)) {
     if (is_settled(hit)) continue;
     const auto ray = settle(q, site, hit);
     if (!ray && hit.plain) open.push_back(hit);
@@ -179,7 +183,7 @@ void NearbySites::add_searched(const Query& q, int site, const std::vector<SiteR
     if (ray->polar.s < q.limit && ray->y > 0.0) found.push_back(*ray);
   }
   for (const AtlasHit& hit : open)
-    if (!is_settled(hit)) known_[site].doubtful = std::min(known_[site].doubtful, hit.at.s);
+    if (!is_settled(hit)) known_[site].doubtful = std::min(known_[site].doubtful, hit.at.s - hit.error);
 }
 
 // A way from the nearest site in space that can be reached; infinite if there is none.
@@ -199,22 +203,39 @@ double NearbySites::some_way(Uv m, const Xyz& x) const {
   return shortest;
 }
 
-// Every nearer one that is found leaves less to be searched.
+// The nearest and its ties if it is nearer than the limit, else nothing. Every nearer one that is found leaves less to
+// be searched.
+std::vector<SiteRay> NearbySites::tied_within(double limit, Uv m) const {
+  Query q{m, rays_.surface().position(m), limit};
+  std::vector<SiteRay> found;
+  double tied = kInf;
+  for (const int site : in_ball(q.x, limit)) {
+    if ((q.x - tree_.point(site)).norm() > tied) break;
+    add(q, site, {}, found);
+    for (const SiteRay& r : found) tied = std::min(tied, (1.0 + kTie) * r.polar.s);
+    // A length may differ from one computation to the next by less than a tie.
+    q.limit = std::min(limit, (1.0 + kTie) * tied);
+  }
+  if (tied > limit) return {};
+  sort_by_length(found);
+  std::erase_if(found, [tied](const SiteRay& r) { return r.polar.s > tied; });
+  return found;
+}
+
+// The ball grows from the nearest site in space on. Where that leads nowhere, as on a sheet rolled up many times, the
+// length of any geodesic tells how far to look.
 std::vector<SiteRay> NearbySites::nearest(Uv m) const {
   const Xyz x = rays_.surface().position(m);
-  double bound = some_way(m, x);
-  if (!(bound < kInf)) return {};
-  std::vector<SiteRay> found;
-  const auto tied = [&bound] { return (1.0 + kTie) * bound; };
-  // A length may differ from one computation to the next by less than a tie.
-  for (const int site : in_ball(x, (1.0 + kTie) * tied())) {
-    if ((x - tree_.point(site)).norm() > tied()) break;
-    add({m, x, (1.0 + kTie) * tied()}, site, {}, found);
-    for (const SiteRay& r : found) bound = std::min(bound, r.polar.s);
+  const int next = tree_.nearest(x);
+  if (next < 0) return {};
+  const double chord = (x - tree_.point(next)).norm();
+  for (double limit = kHardlyLonger * chord; limit <= kFarLonger * std::max(chord, extent_); limit *= kGrowth) {
+    auto found = tied_within(limit, m);
+    if (!found.empty()) return found;
+    if (chord == 0.0) break;
   }
-  sort_by_length(found);
-  std::erase_if(found, [&](const SiteRay& r) { return r.polar.s > tied(); });
-  return found;
+  const double way = some_way(m, x);
+  return way < kInf ? tied_within((1.0 + 2.0 * kTie) * way, m) : std::vector<SiteRay>{};
 }
 
 bool NearbySites::complete_to(int site, double limit) const {

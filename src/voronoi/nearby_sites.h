@@ -66,6 +66,7 @@ class NearbySites {
   bool add_unique(const Query& q, int site, std::vector<SiteRay>& found) const;
   void add_closed_form(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
   void add_searched(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
+  std::vector<SiteRay> tied_within(double limit, Uv m) const;
   double some_way(Uv m, const Xyz& x) const;
   SiteRay no_way(const Query& q, int site) const;
   std::optional<SiteRay> settle(const Query& q, int site, const AtlasHit& hit) const;
@@ -74,6 +75,7 @@ class NearbySites {
   const SiteRays& rays_;
   bool closed_form_;
   SiteTree tree_;
+  double extent_ = 0.0;  ///< of the sites, in space, to a factor of two
   std::optional<SurfaceSurvey> survey_;
   std::vector<TangentFrame> frames_;
   mutable std::vector<Knowledge> known_;
