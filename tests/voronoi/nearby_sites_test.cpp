@@ -213,6 +213,28 @@ TEST(NearbySites, LeavesOutWhatIsKnown) {
   EXPECT_TRUE(scene.nearby.nearer_than(3.5, m, all).empty());
 }
 
+/// The upper half of the unit sphere as a graph, over a domain that it does not fill.
+class Dome final : public GraphSurface {
+ public:
+  Dome() : GraphSurface({{-2.0, 2.0}, {-2.0, 2.0}}) {}
+  HeightJet height(Uv p) const override {
+    const double h = std::sqrt(1.0 - p.u * p.u - p.v * p.v), h3 = h * h * h;
+    return {h, -p.u / h, -p.v / h, -1.0 / h - p.u * p.u / h3, -p.u * p.v / h3, -1.0 / h - p.v * p.v / h3};
+  }
+  HeightThirds height_thirds(Uv) const override { return {}; }
+};
+
+TEST(NearbySites, SaysHowFarTheSearchWasComplete) {
+  const auto dome = std::make_shared<Dome>();
+  const Scene scene(dome, {{0.0, 0.0}, {0.5, 0.0}});
+  EXPECT_EQ(scene.nearby.nearer_than(1.0, {-0.3, 0.0}, {}).size(), 2u);
+  EXPECT_TRUE(scene.nearby.complete_to(0, 1.0));
+  EXPECT_FALSE(scene.nearby.complete_to(0, 2.0));  // the rim lies at pi / 2
+  EXPECT_FALSE(scene.nearby.complete_to(1, 1.2));  // at pi / 3 on this side
+  const auto bump = std::make_shared<GaussianBumps>(std::vector<GaussianBumps::Bump>{{{0, 0}, 3, 0.3}}, kBumpSquare);
+  EXPECT_TRUE(Scene(bump, {{1.2, 0.0}}).nearby.complete_to(0, 4.0));
+}
+
 // On the paraboloid a geodesic between neighbouring corners runs out to u = 1.30 (notes on which distance is meant).
 TEST(NearbySites, FollowsRaysBeyondTheDomain) {
   const auto bowl = std::make_shared<Paraboloid>(kSquare);
