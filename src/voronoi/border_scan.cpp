@@ -8,9 +8,14 @@ namespace geovor {
 namespace {
 
 // Steps along the border as parts of the distance to the owner, or of the owner's distance to its nearest neighbour:
-// within half of that there is no other's cell.
+// within half of that there is no other's cell. None is shorter than a part of the border, which the site may lie on.
 constexpr double kStep = 0.5;
 constexpr double kStepNearSite = 0.2;
+constexpr double kLeastStep = 1e-4;
+constexpr double kOwnDisk = 0.5;
+
+// As a part of the least step.
+constexpr double kBesideSite = 0.1;
 
 // Between two places an angle changes by what its slopes at both say, but for this part of it; more means another
 // geodesic of the same site. A change too small to tell is none.
@@ -58,16 +63,18 @@ double cubic_minimum(double g0, double s0, double g1, double s1, double h) {
 class CycleScan {
  public:
   CycleScan(const FaceBorder& border, int cycle, const SiteRays& rays, const NearbySites& sites)
-      : border_(border), cycle_(cycle), end_(border.segment_count(cycle)), rays_(rays), sites_(sites) {}
+      : border_(border), cycle_(cycle), end_(border.segment_count(cycle)), rays_(rays), sites_(sites) {
+    for (int k = 0; k < border.segment_count(cycle); ++k) least_step_ += kLeastStep * border.segment_length(cycle, k);
+  }
 
   std::vector<LabelChange> run() {
-    Label last = label(0.0, 0.0);
-    const Label first = last;
-    while (last.at < end_) {
+    const Label first = label(beside_sites(0.0), 0.0);
+    const double last_place = first.at + end_;
+    Label last = first;
+    while (last.at < last_place) {
       const double step = step_from(last);
-      const double at = next_place(last.at, step);
+      const double at = std::min(beside_sites(next_place(last.at, step)), last_place);
       Label here = label(at, step);
-      if (at >= end_) here.at = end_;
       if (!last.candidates.empty() && !here.candidates.empty()) between(last, here, step, 0);
       last = std::move(here);
     }
@@ -75,7 +82,17 @@ class CycleScan {
   }
 
  private:
-  Uv uv(double at) const { return border_.uv({cycle_, at < end_ ? at : 0.0}); }
+  /// A place of the border; it goes round as often as one likes.
+  BorderPlace place(double at) const { return {cycle_, at - end_ * std::floor(at / end_)}; }
+  Uv uv(double at) const { return border_.uv(place(at)); }
+
+  /// The place, or one a little further on where a site lies in it: from there its own ray can't be told.
+  double beside_sites(double at) const {
+    while (!sites_.in_ball(border_.xyz(place(at)), kBesideSite * least_step_).empty()) {
+      at = next_place(at, least_step_);
+    }
+    return at;
+  }
 
   Label label(double at, double reach) const {
     Label l{at, sites_.nearest(uv(at))};
@@ -87,24 +104,35 @@ class CycleScan {
 
   /// Length in space.
   double step_from(const Label& l) const {
-    if (l.candidates.empty()) return 0.0;
-    const int site = l.owner().site, other = sites_.nearest_other(site);
-    const auto place = [&](int i) { return rays_.surface().position(rays_.site(i)); };
-    const double apart = other < 0 ? 0.0 : (place(other) - place(site)).norm();
-    return std::max(kStep * l.owner().polar.s, kStepNearSite * apart);
+    if (l.candidates.empty()) return least_step_;
+    return std::max({kStep * l.owner().polar.s, kStepNearSite * apart(l.owner().site), least_step_});
+  }
+
+  /// From a site to its nearest neighbour, in a straight line.
+  double apart(int site) const {
+    const int other = sites_.nearest_other(site);
+    return other < 0 ? 0.0 : (sites_.position(other) - sites_.position(site)).norm();
+  }
+
+  /// Whether the ray ends so near to its site that nothing else can be nearer.
+  bool in_own_disk(const SiteRay& ray) const {
+    return ray.polar.s < std::max(kOwnDisk * apart(ray.site), 2.0 * least_step_);
   }
 
   /// As far along the border, never beyond a corner where steps are longer than segments are: those that bend are
   /// short.
   double next_place(double at, double step) const {
+    const int n = static_cast<int>(end_);
     double left = step;
-    for (double k = std::floor(at); k < end_; k += 1.0) {
-      const double length = border_.segment_length(cycle_, static_cast<int>(k));
-      const double from = std::max(at, k) - k, rest = (1.0 - from) * length;
-      if (rest > left && length > 0.0) return left > 0.0 ? k + from + left / length : k + 1.0;
+    for (int i = 0; i < n; ++i) {
+      const double k = std::floor(at);
+      const double length = border_.segment_length(cycle_, static_cast<int>(k) % n);
+      const double rest = (k + 1.0 - at) * length;
+      if (rest > left) return at + left / length;
       left -= rest;
+      at = k + 1.0;
     }
-    return end_;
+    return at;
   }
 
   void between(const Label& from, const Label& to, double step, int depth) {
@@ -151,6 +179,7 @@ class CycleScan {
   /// The changes between two owners. A step on which one of them can't be followed is too long.
   void collect(double lo, const SiteRay& a, double hi, const SiteRay& b, int depth) {
     if (depth > kMostChanges) return;
+    if (a.site == b.site && ((in_own_disk(a) && in_own_disk(b)) || !turns_over(a, b))) return;
     const auto a_there = follow(a, hi), b_here = follow(b, lo);
     const bool followed = a_there && b_here && (depth >= kMostHalvings || !turns_over(a, b));
     if (followed && same_generator(*a_there, b)) return;
@@ -163,7 +192,7 @@ class CycleScan {
       collect(middle, owner.front(), hi, b, depth + 1);
       return;
     }
-    const double radius = change->before.polar.s, at = change->place.parameter;
+    const double radius = change->before.polar.s, at = change->at;
     const auto nearer = sites_.nearer_than(radius * (1.0 - kTie), uv(at), {change->before, change->after});
     if (!nearer.empty()) {
       collect(lo, a, at, nearer.front(), depth + 1);
@@ -172,19 +201,22 @@ class CycleScan {
     }
     // The two may have changed to other geodesics of theirs on the way to here.
     if (turns_over(a, change->before)) collect(lo, a, at, change->before, depth + 1);
-    changes_.push_back(*change);
-    if (at >= end_) changes_.back().place.parameter = 0.0;
+    changes_.push_back({place(at), change->before, change->after});
     if (turns_over(change->after, b)) collect(at, change->after, hi, b, depth + 1);
   }
 
+  struct Root {
+    double at;
+    SiteRay before, after;
+  };
   /// Root of d_a - d_b on [lo, hi] by the Illinois variant of false position, which needs no derivative and so does not
   /// mind the corners of the border.
-  std::optional<LabelChange> root(double lo, const SiteRay& a_lo, const SiteRay& b_lo, double hi, const SiteRay& a_hi,
-                                  const SiteRay& b_hi) const {
+  std::optional<Root> root(double lo, const SiteRay& a_lo, const SiteRay& b_lo, double hi, const SiteRay& a_hi,
+                           const SiteRay& b_hi) const {
     double f_lo = a_lo.polar.s - b_lo.polar.s, f_hi = a_hi.polar.s - b_hi.polar.s;
     const auto is_root = [](double f, const SiteRay& ray) { return std::abs(f) <= kRoot * ray.polar.s; };
-    if (is_root(f_lo, a_lo)) return LabelChange{{cycle_, lo}, a_lo, b_lo};
-    if (is_root(f_hi, a_hi)) return LabelChange{{cycle_, hi}, a_hi, b_hi};
+    if (is_root(f_lo, a_lo)) return Root{lo, a_lo, b_lo};
+    if (is_root(f_hi, a_hi)) return Root{hi, a_hi, b_hi};
     if (!(f_lo < 0.0 && f_hi > 0.0)) return std::nullopt;
     SiteRay a = a_lo, b = b_lo;
     double k = lo;
@@ -203,7 +235,7 @@ class CycleScan {
       if (side == last_side) (side < 0 ? f_hi : f_lo) *= 0.5;
       last_side = side;
     }
-    return LabelChange{{cycle_, k}, a, b};
+    return Root{k, a, b};
   }
 
   const FaceBorder& border_;
@@ -211,6 +243,7 @@ class CycleScan {
   double end_;
   const SiteRays& rays_;
   const NearbySites& sites_;
+  double least_step_ = 0.0;
   std::vector<LabelChange> changes_;
 };
 

@@ -113,9 +113,18 @@ void DiagramBuilder::warn_of_seams() {
   }
 }
 
+// Where several cells come together on the border, each two of them that are neighbours there share an edge.
 void DiagramBuilder::start_on_border(int cycle) {
   for (const LabelChange& change : scan_border(border_, cycle, rays_, sites_)) {
-    open_.push_back(table_.start_on_border(change.place, {change.before, change.after}));
+    const SiteRay &before = change.before, &after = change.after;
+    const auto tied = sites_.nearer_than(before.polar.s * (1.0 + kOneVertex), before.uv, {before, after});
+    std::vector<SiteRay> around = {after};
+    around.insert(around.end(), tied.begin(), tied.end());
+    around.push_back(before);
+    sort_around(around);
+    for (size_t i = 0; i + 1 < around.size(); ++i) {
+      open_.push_back(table_.start_on_border(change.place, {around[i + 1], around[i]}));
+    }
   }
 }
 

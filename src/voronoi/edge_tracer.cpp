@@ -60,6 +60,9 @@ constexpr int kDeepest = 10;
 constexpr double kBorderMargin = 2.0;
 
 constexpr int kBorderIterations = 30;
+
+// A vertex this near to the border, as a part of its radius, lies on it.
+constexpr double kOnBorder = 1e-9;
 constexpr int kMostRivalsInTurn = 24;
 
 // Two points nearer than this part of the radius have nothing between them.
@@ -294,9 +297,20 @@ EdgeTracer::Step EdgeTracer::take_vertex(Walk& walk, const Vertex& found) const 
     if (outcome != Step::Going) return outcome;
     walk.edge.generators = vertex.generators;
     walk.edge.end = TraceEnd::Vertex;
+    if (const auto place = on_border(vertex.point)) {
+      walk.edge.place = *place;
+      walk.edge.end = TraceEnd::Border;
+    }
     return Step::Ended;
   }
   return Step::Failed;
+}
+
+std::optional<BorderPlace> EdgeTracer::on_border(const BisectorPoint& m) const {
+  const double near = kOnBorder * m.radius();
+  if (border_.cycle_count() == 0 || !border_.near_border(m.position(), near)) return std::nullopt;
+  const auto place = border_.nearest(domain_.to_principal(m.left.uv));
+  return place && (border_.xyz(*place) - m.position()).norm() < near ? place : std::nullopt;
 }
 
 EdgeTracer::Step EdgeTracer::take_point(Walk& walk, const BisectorPoint& next) const {

@@ -64,6 +64,7 @@ class EdgeTracer {
   std::optional<Vertex> find_vertex(const BisectorPoint& from, const BisectorPoint& guess, SiteRay rival,
                                     double reach) const;
   std::optional<BisectorPoint> border_point(const BisectorPoint& near, BorderPlace& place) const;
+  std::optional<BorderPlace> on_border(const BisectorPoint& m) const;
   struct Crossing {
     BisectorPoint from, to;  ///< a chord that meets the border
     FaceBorder::Crossing at;
