@@ -54,6 +54,16 @@ double error_of(const dop853::Step<GeodesicVector>& step, const SurfaceJet& j, d
   return std::max(settled, dop853::unsettled_error(difference, size(step.error3)));
 }
 
+// From flat ground the integrator may step over the tail of a low bump and take the error for none: on one of height
+// and width 0.5 rays of length 0.6 were 4e-11 off. Legs as long as this part of the least radius of curvature end
+// before.
+constexpr double kLongestLeg = 0.25;
+constexpr double kMostLegs = 1e4;
+
+int legs_of(double bend) {
+  return bend > kLongestLeg ? static_cast<int>(std::min(std::ceil(bend / kLongestLeg), kMostLegs)) : 1;
+}
+
 bool within(Interval sweep, Interval range) {
   const double clear = kClear * sweep.length();
   return sweep.lo - clear > range.lo && sweep.hi + clear < range.hi;
@@ -79,7 +89,9 @@ TracedRay RaySource::end(double s, double t, const TraceOptions& options) const 
   }
   GeodesicIntegrator path(*surface_, p_, T, s, options);
   TracedRay end;
-  end.status = path.advance(s);
+  end.status = TraceStatus::Converged;
+  const int legs = legs_of(s * curvature_);
+  for (int i = 1; i <= legs && end.status == TraceStatus::Converged; ++i) end.status = path.advance(s * i / legs);
   end.at = path.at();
   end.d = path.state().d;
   end.jet = path.jet();
