@@ -1,0 +1,237 @@
+// Diagrams on faces of files that others wrote: one shape under many parameterizations has one diagram, and real
+// B-spline faces have diagrams that are equally far from their sites and certified.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "brep/face_area.h"
+#include "geodesic/connect.h"
+#include "occ_adapter/read_cad.h"
+#include "samples/diagram_facts.h"
+#include "surface/project.h"
+#include "voronoi/certificate.h"
+#include "voronoi/diagram_builder.h"
+
+namespace geovor::testing {
+namespace {
+
+constexpr int kSites = 9;
+constexpr double kSamePlace = 1e-10;
+
+std::filesystem::path shared_folder() {
+  const char* named = std::getenv("GEOVOR_SHARED");
+  return named ? std::filesystem::path(named) : std::filesystem::path(GEOVOR_SOURCE_DIR) / ".." / "shared";
+}
+
+/// Fails under CI, and skips elsewhere, where the folder is missing.
+void need(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path)) return;
+  const char* ci = std::getenv("CI");
+  if (ci && std::string(ci) == "true") FAIL() << path << " is missing; set GEOVOR_SHARED to the folder of shared data";
+  GTEST_SKIP() << path << " is missing; set GEOVOR_SHARED to the folder of shared data";
+}
+
+/// By name: how far the points of the file lie from those meant, as measured by who made it.
+std::map<std::string, double> file_errors() {
+  std::map<std::string, double> errors;
+  std::ifstream table(shared_folder() / "faces" / "faces.tsv");
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line)) {
+    std::istringstream columns(line);
+    std::string name;
+    double made = 0.0, read_back = 0.0;
+    if (columns >> name >> made >> read_back) errors[name] = made + read_back;
+  }
+  return errors;
+}
+
+/// What a diagram says without parameters: the sites around each vertex with its place, the sites of each edge.
+struct Combinatorics {
+  std::vector<std::pair<std::vector<int>, Xyz>> vertices;
+  std::vector<std::pair<int, int>> edges;
+};
+
+Combinatorics combinatorics(const VoronoiDiagram& d) {
+  Combinatorics c;
+  for (const DiagramVertex& v : d.vertices) {
+    std::vector<int> sites = v.sites;
+    std::sort(sites.begin(), sites.end());
+    c.vertices.push_back({sites, v.xyz});
+  }
+  for (const DiagramEdge& e : d.edges) c.edges.push_back({std::min(e.left, e.right), std::max(e.left, e.right)});
+  std::sort(c.edges.begin(), c.edges.end());
+  return c;
+}
+
+/// Each vertex of one has its own of the other: the same sites, the same place.
+void expect_same(const Combinatorics& a, Combinatorics b, double apart) {
+  EXPECT_EQ(a.edges, b.edges);
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  for (const auto& [sites, x] : a.vertices) {
+    const auto distance = [&, &names = sites, &place = x](const auto& other) {
+      return other.first == names ? (other.second - place).norm() : 1e300;
+    };
+    const auto twin = std::min_element(b.vertices.begin(), b.vertices.end(),
+                                       [&](const auto& p, const auto& q) { return distance(p) < distance(q); });
+    ASSERT_NE(twin, b.vertices.end());
+    EXPECT_LT(distance(*twin), apart);
+    b.vertices.erase(twin);
+  }
+}
+
+class ReadFace {
+ public:
+  explicit ReadFace(const std::string& file, int face = 0)
+      : model_(read_cad(file)), face_(&model_.faces[face]), domain_(model_, *face_, 1e-6 * model_.diagonal()) {}
+  const FaceDomain& domain() const { return domain_; }
+  const Surface& surface() const { return domain_.surface(); }
+  double size() const { return model_.diagonal(); }
+  Area area() const { return face_area(model_, *face_); }
+
+ private:
+  CadModel model_;
+  const CadFace* face_;
+  FaceDomain domain_;
+};
+
+std::string face_file(const std::string& name) { return (shared_folder() / "faces" / (name + ".step")).string(); }
+
+class Families : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override { need(shared_folder() / "faces" / "faces.tsv"); }
+};
+
+TEST_P(Families, HaveTheDiagramOfTheOriginal) {
+  const std::string name = GetParam(), original = name.substr(0, name.find('_')) + "_orig";
+  const ReadFace first(face_file(original)), other(face_file(name));
+  auto errors = file_errors();
+  // What the files differ by is in the sites' places and in the surface; a vertex may answer tenfold.
+  const double apart = 10.0 * (errors.at(name) + errors.at(original)) + kSamePlace * first.size();
+  const std::vector<Uv> sites = spread_sites(first.domain(), kSites);
+  std::vector<Uv> moved;
+  for (const Uv p : sites) {
+    const Projection q = project(other.surface(), first.surface().position(p), other.domain().box());
+    ASSERT_LT(q.distance, apart);
+    moved.push_back(other.domain().to_principal(q.uv));
+  }
+  VoronoiOptions options;
+  options.measure = false;
+  const VoronoiDiagram a = build_diagram(first.domain(), sites, options);
+  const VoronoiDiagram b = build_diagram(other.domain(), moved, options);
+  expect_same(combinatorics(a), combinatorics(b), apart);
+  const Certificate certificate = certify(other.domain(), b, other.area());
+  EXPECT_TRUE(certificate.holds()) << certificate.result;
+}
+
+const char* const kFamilies[] = {
+    "ff_deg5knots", "ff_swap",    "ff_revu",     "ff_swaprev", "ff_moeb4",      "ff_moeb16",  "ff_moeb64",
+    "ff_pow3u",     "ff_pow3uv",  "ff_smooth",   "pl_bilin",   "pl_shear1",     "pl_shear5",  "pl_shear20",
+    "pl_skew1",     "pl_skew2",   "pl_skew4",    "pl_moeb4",   "pl_moeb16",     "pl_moeb64",  "pl_pow3u",
+    "pl_pow3uv",    "pl_smooth",  "cyl_nurbs",   "cyl_moeb4",  "cyl_moeb16",    "cyl_moeb64", "cyl_pow3u",
+    "cyl_pow3uv",   "cyl_smooth", "sph_nurbs",   "sph_moeb4",  "sph_moeb16",    "sph_moeb64", "sph_pow3u",
+    "sph_pow3uv",   "sph_smooth", "tor_nurbs",   "tor_moeb4",  "tor_moeb16",    "tor_moeb64", "tor_pow3u",
+    "tor_pow3uv",   "tor_smooth", "oct_nurbs",   "oct_axisx",  "oct_axisout",   "oct_axisin", "fsph_seam37",
+    "fsph_tilt",    "fsph_nurbs", "ftor_seam37", "ftor_nurbs", "ftor_nurbsv100"};
+
+INSTANTIATE_TEST_SUITE_P(Shards, Families, ::testing::ValuesIn(kFamilies),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+struct CorpusFace {
+  const char* name;
+  const char* path;  ///< below shared/corpus
+};
+
+void PrintTo(const CorpusFace& face, std::ostream* out) { *out << face.name; }
+
+const CorpusFace kCorpus[] = {
+    {"wigley", "dealii+dealii/tests__opencascade__step_files__wigley.step"},
+    {"bulbous_bow", "dealii+dealii/examples__step-54__input__DTMB-5415_bulbous_bow.iges"},
+    {"nacelle", "DLR-SC+tigl/tests__TestData__nacelle.stp"},
+    {"wing_cell", "DLR-SC+tigl/tests__TestData__export__bug829_cell_upper_6.brep"},
+    {"curves_to_surface", "DLR-SC+tigl/tests__TestData__curvesToSurfaceContinuous.brep"},
+    {"blade_lower", "mathLab+BladeX/tests__test_datasets__lower.iges"},
+    {"blade_tip", "mathLab+BladeX/tests__test_datasets__tip.iges"},
+    {"pipe", "mathLab+PyGeM/tests__test_datasets__test_pipe_out_true.step"},
+    {"c172", "mdolab+pygeo/examples__c172_wing__c172.igs"},
+    {"simple_wing", "trelau+AFEM/models__simple_wing.stp"},
+    {"openvsp_wing", "trelau+AFEM/models__DefaultWing-OpenVSP-3-5-0.stp"},
+    {"mars_capsule", "unifem+overtureframework/Overture__ogen__marsCapsule.igs"},
+    {"asmo", "unifem+overtureframework/Overture__rap__asmo.igs"},
+    {"ship_kcs", "unifem+overtureframework/Overture__rap__ship_kcs.igs"},
+    {"complex_spline", "CadQuery+AnalysisSitus/data__cad__complexBSpl.brep"},
+};
+
+class CorpusFaces : public ::testing::TestWithParam<CorpusFace> {
+ protected:
+  void SetUp() override {
+    path_ = shared_folder() / "corpus" / GetParam().path;
+    need(path_);
+  }
+  std::filesystem::path path_;
+};
+
+/// The B-spline face of the file with the largest area.
+int largest_spline_face(const CadModel& model) {
+  int best = -1;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < model.faces.size(); ++i) {
+    const CadFace& face = model.faces[i];
+    if (!face.surface || face.surface->kind() != SurfaceKind::BSpline) continue;
+    const double area = face_area(model, face).value;
+    if (area > largest) largest = area, best = static_cast<int>(i);
+  }
+  return best;
+}
+
+/// The largest relative difference of the distances from a place to the sites, each connected anew.
+double spread_of(const Surface& surface, const VoronoiDiagram& d, Uv m,
+                 const std::vector<std::pair<int, Polar>>& rays) {
+  ConnectOptions options;
+  options.tolerance = 1e-14;
+  double lo = 1e300, hi = 0.0;
+  for (const auto& [site, guess] : rays) {
+    const Connection c = connect(surface, d.sites[site].uv, m, guess, options);
+    lo = std::min(lo, c.length), hi = std::max(hi, c.length);
+  }
+  return (hi - lo) / hi;
+}
+
+TEST_P(CorpusFaces, HaveCertifiedDiagramsEquallyFarFromTheSites) {
+  constexpr double kEqual = 1e-12;
+  const CadModel model = read_cad(path_.string());
+  const int index = largest_spline_face(model);
+  ASSERT_GE(index, 0);
+  const FaceDomain domain(model, model.faces[index], 1e-6 * model.diagonal());
+  VoronoiOptions options;
+  options.measure = false;
+  const VoronoiDiagram d = build_diagram(domain, spread_sites(domain, kSites), options);
+  for (const DiagramWarning& w : d.warnings) EXPECT_NE(w.kind, "unresolved") << w.text;
+  const Certificate certificate = certify(domain, d, face_area(model, model.faces[index]));
+  EXPECT_TRUE(certificate.holds()) << certificate.result;
+  double at_vertices = 0.0, along_edges = 0.0;
+  for (const DiagramVertex& v : d.vertices) {
+    std::vector<std::pair<int, Polar>> rays;
+    for (std::size_t i = 0; i < v.sites.size(); ++i) rays.push_back({v.sites[i], {v.radius, v.angles[i]}});
+    at_vertices = std::max(at_vertices, spread_of(domain.surface(), d, v.uv, rays));
+  }
+  for (const DiagramEdge& e : d.edges) {
+    for (const EdgePoint& p : e.points)
+      along_edges =
+          std::max(along_edges, spread_of(domain.surface(), d, p.uv,
+                                          {{e.left, {p.radius, p.left_angle}}, {e.right, {p.radius, p.right_angle}}}));
+  }
+  EXPECT_LE(at_vertices, kEqual);
+  EXPECT_LE(along_edges, kEqual);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shards, CorpusFaces, ::testing::ValuesIn(kCorpus),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace geovor::testing
