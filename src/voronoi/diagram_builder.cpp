@@ -43,6 +43,9 @@ class DiagramBuilder {
     diagram_.tolerance = tolerance;
   }
 
+  /// What of a part's diagram is one of all sites too.
+  void keep(const PartDiagram& part);
+
   VoronoiDiagram build() {
     for (Uv p : places_) diagram_.sites.push_back({domain_.to_principal(p), domain_.surface().position(p)});
     if (!places_.empty()) {
@@ -68,6 +71,8 @@ class DiagramBuilder {
     double length = 0.0;
     bool alive = true;
   };
+  std::optional<std::vector<SiteRay>> kept_rays(const DiagramVertex& vertex, const std::vector<int>& which) const;
+  std::optional<std::vector<BisectorPoint>> kept_points(const DiagramEdge& edge, const std::vector<int>& which) const;
   void start_on_border(int cycle);
   void start_at_site(int site);
   void trace_both_ways(const BisectorPoint& seed);
@@ -110,6 +115,62 @@ void DiagramBuilder::warn_of_seams() {
                                  domain_.to_principal(seam),
                                  "the surface closes on itself here but declares no period: the seam is taken for a "
                                  "border, at which cells end, and distances know no path across it"});
+  }
+}
+
+/// The rays of a vertex inside the face if no other site is as near.
+std::optional<std::vector<SiteRay>> DiagramBuilder::kept_rays(const DiagramVertex& v,
+                                                              const std::vector<int>& which) const {
+  if (v.on_boundary || v.sites.size() < 3) return std::nullopt;
+  std::vector<SiteRay> generators;
+  for (size_t i = 0; i < v.sites.size(); ++i) {
+    const auto ray = rays_.at(which[v.sites[i]], {v.radius, v.angles[i]});
+    if (!ray) return std::nullopt;
+    generators.push_back(*ray);
+  }
+  if (!sites_.nearer_than(v.radius * (1.0 + kOneVertex), generators.front().uv, generators).empty()) {
+    return std::nullopt;
+  }
+  return generators;
+}
+
+std::optional<std::vector<BisectorPoint>> DiagramBuilder::kept_points(const DiagramEdge& e,
+                                                                      const std::vector<int>& which) const {
+  std::vector<BisectorPoint> points;
+  for (const EdgePoint& p : e.points) {
+    const auto left = rays_.at(which[e.left], {p.radius, p.left_angle});
+    const auto right = rays_.at(which[e.right], {p.radius, p.right_angle});
+    if (!left || !right) return std::nullopt;
+    points.push_back({*left, *right});
+    if (!sites_.nearer_than(p.radius * (1.0 - kOneVertex), left->uv, {*left, *right}).empty()) return std::nullopt;
+  }
+  return points;
+}
+
+void DiagramBuilder::keep(const PartDiagram& part) {
+  const VoronoiDiagram& d = part.diagram;
+  std::vector<int> number(d.vertices.size(), -1);
+  for (size_t v = 0; v < d.vertices.size(); ++v) {
+    const auto generators = kept_rays(d.vertices[v], part.which);
+    if (!generators) continue;
+    const auto spoke = table_.arrive_inside(*generators, {(*generators)[0], (*generators)[1]});
+    if (spoke) number[v] = spoke->vertex;
+  }
+  const auto spoke_of = [&](int vertex, int edge, bool at_end) {
+    const auto& spokes = d.vertices[vertex].spokes;
+    const auto same = [&](const Spoke& s) { return s.edge == edge && s.at_end == at_end; };
+    return SpokeRef{number[vertex],
+                    static_cast<int>(std::find_if(spokes.begin(), spokes.end(), same) - spokes.begin())};
+  };
+  for (int e = 0; e < static_cast<int>(d.edges.size()); ++e) {
+    const DiagramEdge& edge = d.edges[e];
+    if (edge.closed() || number[edge.from] < 0 || number[edge.to] < 0) continue;
+    if (auto points = kept_points(edge, part.which)) {
+      add(std::move(*points), spoke_of(edge.from, e, false), spoke_of(edge.to, e, true));
+    }
+  }
+  for (int v : number) {
+    if (v >= 0) open_spokes_of(v);
   }
 }
 
@@ -327,8 +388,15 @@ double face_size(const FaceDomain& domain) {
 }
 
 VoronoiDiagram build_diagram(const FaceDomain& domain, const std::vector<Uv>& sites, const VoronoiOptions& options) {
+  return merge_diagrams(domain, sites, {}, options);
+}
+
+VoronoiDiagram merge_diagrams(const FaceDomain& domain, const std::vector<Uv>& sites,
+                              const std::vector<PartDiagram>& parts, const VoronoiOptions& options) {
   const double tolerance = options.tolerance > 0.0 ? options.tolerance : kDefaultTolerance * face_size(domain);
-  VoronoiDiagram diagram = DiagramBuilder(domain, sites, tolerance).build();
+  DiagramBuilder builder(domain, sites, tolerance);
+  for (const PartDiagram& part : parts) builder.keep(part);
+  VoronoiDiagram diagram = builder.build();
   if (!options.measure) return diagram;
   measure_cells(domain, diagram);
   recompute_residuals(domain.surface(), diagram);

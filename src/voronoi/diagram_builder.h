@@ -30,6 +30,20 @@ inline constexpr double kDefaultTolerance = 1e-5;
 VoronoiDiagram build_diagram(const FaceDomain& domain, const std::vector<Uv>& sites,
                              const VoronoiOptions& options = {});
 
+/// A diagram of some of the sites.
+struct PartDiagram {
+  VoronoiDiagram diagram;
+  std::vector<int> which;  ///< its site i is site which[i] of all
+};
+
+/// The diagram of all sites from diagrams of parts of them (merge_subdiagrams in section 3.2 of the paper). Vertices
+/// and edges of the parts stay where no site of another part is nearer; from what is left open there the edges are
+/// traced again up to where they are cut, and the chains between the parts from vertex to vertex. Starting points of
+/// chains that meet neither are those of build_diagram(), so that none is missed, closed or not.
+/// REQUIRES: every site is in one part
+VoronoiDiagram merge_diagrams(const FaceDomain& domain, const std::vector<Uv>& sites,
+                              const std::vector<PartDiagram>& parts, const VoronoiOptions& options = {});
+
 /// The diagonal in space of a box around the face: what tolerances are parts of.
 double face_size(const FaceDomain& domain);
 

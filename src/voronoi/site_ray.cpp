@@ -144,11 +144,6 @@ Polar carry(const SiteRay& ray, const Xyz& m) {
   return {ray.polar.s + ray.T.dot(step), ray.polar.t + ray.N.dot(step) / ray.y};
 }
 
-bool near_guess(const SiteRay& ray, int site, const Polar& guess, double reach) {
-  if (ray.site != site) return false;
-  return std::abs(ray.polar.s - guess.s) + std::abs(ray.y * wrap_angle(ray.polar.t - guess.t)) < kSameGuess * reach;
-}
-
 bool same_generator(const SiteRay& a, const SiteRay& b) {
   return a.site == b.site && std::abs(wrap_angle(a.polar.t - b.polar.t)) < kSameAngle;
 }

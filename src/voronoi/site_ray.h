@@ -83,14 +83,6 @@ SiteRay moved(const SiteRay& ray, Uv m, const SurfaceJet& j);
 /// The polar coordinates, to first order, of the point `m` of space near ray.x.
 Polar carry(const SiteRay& ray, const Xyz& m);
 
-/// A guess carried from a neighbouring point and a geodesic already known at the point are the same if they agree to
-/// this part of the lattice's reach: the guess errs by the square of the reach over the radius of curvature, a second
-/// geodesic of the same site that matters comes from another side.
-inline constexpr double kSameGuess = 0.25;
-
-/// Whether the guess is the ray, to kSameGuess of the reach.
-bool near_guess(const SiteRay& ray, int site, const Polar& guess, double reach);
-
 /// Whether two rays of one point are the same geodesic.
 bool same_generator(const SiteRay& a, const SiteRay& b);
 
