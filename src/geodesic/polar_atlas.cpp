@@ -220,7 +220,7 @@ void PolarAtlas::index_parts() {
       const Sample& end = ray.samples[i];
       if (end.s + end.step < ray.from) continue;
       parts_.push_back(part(r, i));
-      boxes.push_back(box(parts_.back()));
+      if (!options_.target) boxes.push_back(box(parts_.back()));
     }
   }
   tree_ = BoxTree(std::move(boxes));
@@ -294,11 +294,17 @@ std::optional<AtlasHit> PolarAtlas::look(const Part& part, const Xyz& x) const {
   return AtlasHit{at, std::abs(b), kHitError * at.s + 0.5 * std::abs(bend), turn, plain};
 }
 
+// For a single target a tree does not pay.
 std::vector<AtlasHit> PolarAtlas::hits(const Xyz& x, double limit) const {
   std::vector<AtlasHit> all;
-  for (const int i : tree_.holding(x)) {
-    const auto hit = look(parts_[i], x);
+  const auto add = [&](const Part& part) {
+    const auto hit = look(part, x);
     if (hit && hit->at.s - hit->error <= limit) all.push_back(*hit);
+  };
+  if (options_.target) {
+    for (const Part& part : parts_) add(part);
+  } else {
+    for (const int i : tree_.holding(x)) add(parts_[i]);
   }
   std::sort(all.begin(), all.end(), [](const AtlasHit& a, const AtlasHit& b) {
     return std::tie(a.off, a.at.s, a.at.t) < std::tie(b.off, b.at.s, b.at.t);
