@@ -68,6 +68,15 @@ QuadJet QuadWave::jet(const Float128& u, const Float128& v, std::array<int, 2>) 
   return graph(u, v, {su * cv, cu * cv, -su * sv, -su * cv, -cu * sv, -su * cv});
 }
 
+QuadJet QuadParaboloid::jet(const Float128& u, const Float128& v, std::array<int, 2>) const {
+  return graph(u, v, {u * u + v * v, 2 * u, 2 * v, 2, 0, 2});
+}
+
+QuadJet QuadCylinder::jet(const Float128& u, const Float128& v, std::array<int, 2>) const {
+  const Float128 c = cos(u), s = sin(u);
+  return {{c, s, v}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {0, 0, 0}, {0, 0, 0}};
+}
+
 QuadJet QuadEllipsoid::jet(const Float128& u, const Float128& v, std::array<int, 2>) const {
   const Float128 x = a_ * cos(u), y = b_ * sin(u), xu = -a_ * sin(u), yu = b_ * cos(u), C = cos(v), S = sin(v);
   return {{x * C, y * C, c_ * S}, {xu * C, yu * C, 0},   {-x * S, -y * S, c_ * C},

@@ -34,6 +34,18 @@ class QuadWave final : public QuadSurface {
   QuadJet jet(const Float128& u, const Float128& v, std::array<int, 2>) const override;
 };
 
+/// (u, v, u^2 + v^2).
+class QuadParaboloid final : public QuadSurface {
+ public:
+  QuadJet jet(const Float128& u, const Float128& v, std::array<int, 2>) const override;
+};
+
+/// (cos u, sin u, v).
+class QuadCylinder final : public QuadSurface {
+ public:
+  QuadJet jet(const Float128& u, const Float128& v, std::array<int, 2>) const override;
+};
+
 /// (a cos u cos v, b sin u cos v, c sin v).
 class QuadEllipsoid final : public QuadSurface {
  public:

@@ -19,7 +19,7 @@ constexpr int kPointsAnEdge = 3;
 
 struct Scene {
   std::string name;
-  SurfacePtr surface;
+  TestFace face;
   std::shared_ptr<const QuadSurface> quad;
   int sites;
 };
@@ -32,7 +32,7 @@ class Equidistance : public ::testing::TestWithParam<Scene> {
   /// this angle ends within the square root of any error from x, and its tangent there tells the rest.
   double distance(int site, double radius, double angle, const Xyz& x) const {
     const Uv start = diagram_.sites[site].uv;
-    const UvVec direction = direction_at_angle(GetParam().surface->jet(start), angle);
+    const UvVec direction = direction_at_angle(face_surface().jet(start), angle);
     const QuadEnd end = quad_geodesic(*GetParam().quad, start, direction, radius);
     Float128 ahead = 0, off = 0;
     for (int i = 0; i < 3; ++i) {
@@ -43,13 +43,14 @@ class Equidistance : public ::testing::TestWithParam<Scene> {
     EXPECT_LT(static_cast<double>(off), 1e-18 * radius * radius);
     return radius + static_cast<double>(ahead);
   }
+  const Surface& face_surface() const { return *GetParam().face.model.faces[0].surface; }
   static Float128 coordinate(const QuadVec& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
   VoronoiDiagram diagram_;
 };
 
 TEST_P(Equidistance, HoldsAtVerticesAndAlongEdges) {
-  const TestFace face = whole(GetParam().surface);
+  const TestFace& face = GetParam().face;
   VoronoiOptions options;
   options.measure = false;
   diagram_ = build_diagram(face.domain(), random_sites(face.domain(), GetParam().sites, 3), options);
@@ -82,12 +83,19 @@ std::vector<Scene> scenes() {
     return std::make_shared<GaussianBumps>(std::vector<GaussianBumps::Bump>{{{0, 0}, height, width}}, square);
   };
   const SplineData spline = random_spline(3, 3, 3, true, 7);
-  return {{"wave", std::make_shared<WaveSurface>(square), std::make_shared<QuadWave>(), 8},
-          {"low_bump", bump(0.5, 0.5), std::make_shared<QuadBump>(0.5, 0.5), 60},
-          {"high_bump", bump(1.5, 0.4), std::make_shared<QuadBump>(1.5, 0.4), 12},
-          {"ellipsoid", std::make_shared<Ellipsoid>(1.0, 1.4, 0.8), std::make_shared<QuadEllipsoid>(1.0, 1.4, 0.8), 8},
-          {"torus", std::make_shared<Torus>(Frame{}, 3.0, 1.0), std::make_shared<QuadTorus>(3.0, 1.0), 8},
-          {"spline", std::make_shared<BSplineSurface>(spline.surface()), std::make_shared<QuadSpline>(spline), 6}};
+  TestFace tube(std::make_shared<Cylinder>(Frame{}, 1.0));
+  tube.ring({{0.0, 2.0 * kPi}, {0.0, 3.0}});
+  const auto ellipsoid = std::make_shared<Ellipsoid>(1.0, 1.4, 0.8);
+  return {
+      {"wave", whole(std::make_shared<WaveSurface>(square)), std::make_shared<QuadWave>(), 8},
+      {"paraboloid", whole(std::make_shared<Paraboloid>(kSquare)), std::make_shared<QuadParaboloid>(), 8},
+      {"low_bump", whole(bump(0.5, 0.5)), std::make_shared<QuadBump>(0.5, 0.5), 60},
+      {"high_bump", whole(bump(1.5, 0.4)), std::make_shared<QuadBump>(1.5, 0.4), 12},
+      {"ellipsoid", whole(ellipsoid), std::make_shared<QuadEllipsoid>(1.0, 1.4, 0.8), 8},
+      {"sphere", whole(std::make_shared<Sphere>(Frame{}, 1.0)), std::make_shared<QuadEllipsoid>(1.0, 1.0, 1.0), 8},
+      {"cylinder", tube, std::make_shared<QuadCylinder>(), 8},
+      {"torus", whole(std::make_shared<Torus>(Frame{}, 3.0, 1.0)), std::make_shared<QuadTorus>(3.0, 1.0), 8},
+      {"spline", whole(std::make_shared<BSplineSurface>(spline.surface())), std::make_shared<QuadSpline>(spline), 6}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, Equidistance, ::testing::ValuesIn(scenes()),
