@@ -60,16 +60,16 @@ double error_of(const dop853::Step<GeodesicVector>& step, const SurfaceJet& j, d
 constexpr double kLongestLeg = 0.25;
 constexpr double kMostLegs = 1e4;
 
-int legs_of(double bend) {
-  return bend > kLongestLeg ? static_cast<int>(std::min(std::ceil(bend / kLongestLeg), kMostLegs)) : 1;
-}
-
 bool within(Interval sweep, Interval range) {
   const double clear = kClear * sweep.length();
   return sweep.lo - clear > range.lo && sweep.hi + clear < range.hi;
 }
 
 }  // namespace
+
+int legs_of(double bend) {
+  return bend > kLongestLeg ? static_cast<int>(std::min(std::ceil(bend / kLongestLeg), kMostLegs)) : 1;
+}
 
 RaySource::RaySource(const Surface& surface, Uv p, double curvature)
     : surface_(&surface),

@@ -53,4 +53,8 @@ class RaySource {
 /// From this tolerance on a ray's error need not be estimated.
 inline constexpr double kLoosest = 1e-9;
 
+/// How many legs a ray has to be traced in that is so many least radii of curvature long: steps over flat ground must
+/// not pass by what is curved.
+int legs_of(double bend);
+
 }  // namespace geovor

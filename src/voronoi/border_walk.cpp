@@ -70,7 +70,7 @@ void Walker::segment(const FaceBorder& border, int cycle, int k, Interval f) {
       const Uv m = border.uv_in_segment(cycle, k, at);
       seen_.found = step_to(m);
       if (!seen_.found) return;
-      const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, RayParts::WithSector);
+      const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, rays_.curvature(), RayParts::WithSector);
       bend_ = std::abs(2.0 * end.sector / (end.polar.s * end.polar.s) - 1.0);
       const Xyz along = push_forward(surface.jet(m), border.direction({cycle, k + at}));
       seen_.area += 0.5 * rule.weights[i] * part * last_->N.dot(along) / last_->y * end.sector;

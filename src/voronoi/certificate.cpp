@@ -94,7 +94,8 @@ void Examiner::trace_vertices() {
   for (const DiagramVertex& v : d_.vertices) {
     at_vertices_.emplace_back();
     for (std::size_t i = 0; i < v.sites.size(); ++i)
-      at_vertices_.back().push_back(trace_ray(domain_.surface(), site(v.sites[i]), {v.radius, v.angles[i]}));
+      at_vertices_.back().push_back(
+          trace_ray(domain_.surface(), site(v.sites[i]), {v.radius, v.angles[i]}, charts_.curvature));
   }
 }
 

@@ -57,8 +57,8 @@ SiteRay site_ray(int site, const RayEnd& e) { return {site, e.polar, {}, e.x, e.
 
 class Walker {
  public:
-  Walker(const Surface& surface, const VoronoiDiagram& diagram, const DiagramEdge& edge)
-      : surface_(surface), diagram_(diagram), edge_(edge) {}
+  Walker(const Surface& surface, double curvature, const VoronoiDiagram& diagram, const DiagramEdge& edge)
+      : surface_(surface), curvature_(curvature), diagram_(diagram), edge_(edge) {}
 
   EdgeWalk walk();
 
@@ -82,7 +82,12 @@ class Walker {
   double gap_of(const Station& s, const Xyz& place) const;
   void finish();
 
+  RayEnd ray(int side, Polar to, RayParts parts) const {
+    return trace_ray(surface_, diagram_.sites[side == 0 ? edge_.left : edge_.right].uv, to, curvature_, parts);
+  }
+
   const Surface& surface_;
+  double curvature_;
   const VoronoiDiagram& diagram_;
   const DiagramEdge& edge_;
   EdgeWalk out_;
@@ -93,8 +98,7 @@ class Walker {
 
 Station Walker::at(Polar left, Polar right) const {
   Station s;
-  s.rays[0] = trace_ray(surface_, diagram_.sites[edge_.left].uv, left, RayParts::WithSector);
-  s.rays[1] = trace_ray(surface_, diagram_.sites[edge_.right].uv, right, RayParts::WithSector);
+  s.rays = {ray(0, left, RayParts::WithSector), ray(1, right, RayParts::WithSector)};
   if (found(s)) complete(s);
   return s;
 }
@@ -104,8 +108,8 @@ Station Walker::stored(const EdgePoint& p) const { return at({p.radius, p.left_a
 /// The rays' ends alone.
 Station Walker::ends_at(const EdgePoint& p) const {
   Station s;
-  s.rays[0] = trace_ray(surface_, diagram_.sites[edge_.left].uv, {p.radius, p.left_angle});
-  s.rays[1] = trace_ray(surface_, diagram_.sites[edge_.right].uv, {p.radius, p.right_angle});
+  s.rays = {ray(0, {p.radius, p.left_angle}, RayParts::EndAlone),
+            ray(1, {p.radius, p.right_angle}, RayParts::EndAlone)};
   for (const RayEnd& ray : s.rays) s.regular = s.regular && std::abs(ray.y) > kConjugate * ray.polar.s;
   return s;
 }
@@ -247,10 +251,9 @@ void Walker::go_to_free_end(const Station& a, const Station& b) {
       const double k = 0.5 * (1.0 + rule.nodes[i]), rest = 1.0 - k;
       const double s = rest * rest * (1.0 + 2.0 * k) * p.s + k * k * (3.0 - 2.0 * k) * q.s + k * rest * rest * from -
                        k * k * rest * to;
-      const RayEnd ray = trace_ray(surface_, diagram_.sites[side == 0 ? edge_.left : edge_.right].uv,
-                                   {s, p.t + k * turn}, RayParts::WithSector);
-      complete_ = complete_ && ray.found;
-      sum += 0.5 * rule.weights[i] * ray.sector;
+      const RayEnd end = ray(side, {s, p.t + k * turn}, RayParts::WithSector);
+      complete_ = complete_ && end.found;
+      sum += 0.5 * rule.weights[i] * end.sector;
     }
     out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * turn;
   }
@@ -338,8 +341,8 @@ EdgeWalk Walker::walk() {
 
 }  // namespace
 
-EdgeWalk walk_edge(const Surface& surface, const VoronoiDiagram& diagram, int edge) {
-  return Walker(surface, diagram, diagram.edges[edge]).walk();
+EdgeWalk walk_edge(const Surface& surface, double curvature, const VoronoiDiagram& diagram, int edge) {
+  return Walker(surface, curvature, diagram, diagram.edges[edge]).walk();
 }
 
 }  // namespace geovor

@@ -34,8 +34,8 @@ struct EdgeWalk {
   Uv worst;                  ///< where the largest of the gaps is
 };
 
-/// REQUIRES: at least two points
-EdgeWalk walk_edge(const Surface& surface, const VoronoiDiagram& diagram, int edge);
+/// `curvature`: see trace_ray(). REQUIRES: at least two points
+EdgeWalk walk_edge(const Surface& surface, double curvature, const VoronoiDiagram& diagram, int edge);
 
 /// The part of the coordinates' size that rounding may take of a difference of two lengths.
 inline constexpr double kCoordinateRounding = 8.0 * 2.220446049250313e-16;

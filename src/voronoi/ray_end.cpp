@@ -8,6 +8,7 @@
 #include "geodesic/closed_form_path.h"
 #include "geodesic/closed_forms.h"
 #include "geodesic/integrator.h"
+#include "geodesic/ray_source.h"
 #include "surface/forms.h"
 #include "surface/tangent_frame.h"
 
@@ -21,7 +22,7 @@ constexpr double kOrdersAgree = 1e-6;
 constexpr int kMostPieces = 64;
 
 /// The states at the ends of equal pieces of the ray, the start left out; fewer where the geodesic ends early.
-std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, int pieces) {
+std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, double curvature, int pieces) {
   const Xyz T = tangent_frame(surface, site).at_angle(to.t);
   std::vector<SpaceState> states;
   if (has_closed_form(surface)) {
@@ -33,9 +34,10 @@ std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, 
   options.stop_at_domain = false;
   options.tolerance = kRetraceTolerance;
   GeodesicIntegrator path(surface, site, T, to.s, options);
-  for (int i = 1; i <= pieces; ++i) {
-    if (path.advance(to.s * i / pieces) != TraceStatus::Converged) break;
-    states.push_back(path.at());
+  const int legs = legs_of(curvature * to.s / pieces), all = pieces * legs;
+  for (int i = 1; i <= all; ++i) {
+    if (path.advance(to.s * i / all) != TraceStatus::Converged) break;
+    if (i % legs == 0) states.push_back(path.at());
   }
   return states;
 }
@@ -71,19 +73,22 @@ RayEnd end_of(const SpaceState& at, Polar to) {
 /// The ray with its sector from the integrator's own steps, which are as short as the curvature asks: on each the
 /// integral of the quintic with y, y' and y'' = -K y at both ends (error h^7 y^(6) / 100800). The sector is NaN where K
 /// is (at poles).
-RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to) {
+RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to, double curvature) {
   TraceOptions options;
   options.stop_at_domain = false;
   options.tolerance = kRetraceTolerance;
   GeodesicIntegrator path(surface, site, tangent_frame(surface, site).at_angle(to.t), to.s, options);
   double covered = 0.0, y = 0.0, dy = 1.0, ddy = 0.0, sum = 0.0;
-  while (path.advance_step(to.s)) {
-    const double h = path.covered() - covered;
-    if (!(h > 0.0)) continue;
-    const SpaceState at = path.at();
-    const double ddy_there = -curvatures(path.jet()).gauss * at.y;
-    sum += h / 2.0 * (y + at.y) + h * h / 10.0 * (dy - at.dy) + h * h * h / 120.0 * (ddy + ddy_there);
-    covered = path.covered(), y = at.y, dy = at.dy, ddy = ddy_there;
+  const int legs = legs_of(curvature * to.s);
+  for (int leg = 1; leg <= legs; ++leg) {
+    while (path.advance_step(to.s * leg / legs)) {
+      const double h = path.covered() - covered;
+      if (!(h > 0.0)) continue;
+      const SpaceState at = path.at();
+      const double ddy_there = -curvatures(path.jet()).gauss * at.y;
+      sum += h / 2.0 * (y + at.y) + h * h / 10.0 * (dy - at.dy) + h * h * h / 120.0 * (ddy + ddy_there);
+      covered = path.covered(), y = at.y, dy = at.dy, ddy = ddy_there;
+    }
   }
   if (path.status() != TraceStatus::Converged) return {};
   RayEnd ray = end_of(path.at(), to);
@@ -93,22 +98,22 @@ RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to) {
 
 }  // namespace
 
-RayEnd trace_ray(const Surface& surface, Uv site, Polar to, RayParts parts) {
+RayEnd trace_ray(const Surface& surface, Uv site, Polar to, double curvature, RayParts parts) {
   RayEnd ray;
   ray.polar = to;
   if (!(to.s > 0.0) || !std::isfinite(to.s) || !std::isfinite(to.t)) return ray;
   if (parts == RayParts::EndAlone) {
-    const auto states = states_along(surface, site, to, 1);
+    const auto states = states_along(surface, site, to, curvature, 1);
     return states.empty() ? ray : end_of(states.back(), to);
   }
   // Where the curvature jumps a step's two ends do not tell it.
   if (!has_closed_form(surface) && surface.continuity() >= 2) {
-    const RayEnd by_steps = trace_by_steps(surface, site, to);
+    const RayEnd by_steps = trace_by_steps(surface, site, to, curvature);
     if (!by_steps.found || std::isfinite(by_steps.sector)) return by_steps;
   }
   double last = std::numeric_limits<double>::quiet_NaN();
   for (int pieces = 2; pieces <= kMostPieces;) {
-    const auto states = states_along(surface, site, to, pieces);
+    const auto states = states_along(surface, site, to, curvature, pieces);
     if (static_cast<int>(states.size()) < pieces) return {};
     const SectorRules sum = integrate_y(states, to.s);
     ray = end_of(states.back(), to);

@@ -36,8 +36,14 @@ constexpr double kMostStretch = 0.5;
 // A grid over the domain on which its curvature is looked at, ends left out: there may be poles.
 constexpr int kCurvatureGrid = 32;
 
+// What of an infinite domain is looked at: cylinders are the same all along it.
+Interval finite_part(Interval i) {
+  if (std::isfinite(i.lo)) return {i.lo, std::isfinite(i.hi) ? i.hi : i.lo + 1.0};
+  return {std::isfinite(i.hi) ? i.hi - 1.0 : 0.0, std::isfinite(i.hi) ? i.hi : 1.0};
+}
+
 double largest_curvature(const Surface& surface) {
-  const UvBox d = surface.domain();
+  const UvBox d = {finite_part(surface.domain().u), finite_part(surface.domain().v)};
   double largest = 0.0;
   for (int i = 0; i < kCurvatureGrid; ++i) {
     for (int k = 0; k < kCurvatureGrid; ++k) {
@@ -60,7 +66,7 @@ Polar second_order_step(const SiteRay& ray, const Xyz& target) {
 }  // namespace
 
 SiteRays::SiteRays(const Surface& surface, const std::vector<Uv>& sites)
-    : surface_(surface), sites_(sites), closed_form_(has_closed_form(surface)), curvature_(closed_form_ ? 0.0 : largest_curvature(surface)) {
+    : surface_(surface), sites_(sites), closed_form_(has_closed_form(surface)), curvature_(largest_curvature(surface)) {
   sources_.reserve(sites.size());
   for (const Uv p : sites) sources_.emplace_back(surface, p, curvature_);
 }
@@ -78,7 +84,7 @@ std::optional<RayShot> SiteRays::shoot(int site, Polar polar, double tolerance) 
   options.tolerance = tolerance;
   const bool known = site < static_cast<int>(sources_.size());
   const TracedRay end = known ? sources_[site].end(polar.s, polar.t, options)
-                           : RaySource(surface_, sites_[site], curvature_).end(polar.s, polar.t, options);
+                              : RaySource(surface_, sites_[site], curvature_).end(polar.s, polar.t, options);
   if (end.status != TraceStatus::Converged) return std::nullopt;
   const SpaceState& at = end.at;
   const RayShot shot{

@@ -142,7 +142,8 @@ Problem random_problem(int seed) {
   return p;
 }
 
-/// The first law that the diagram breaks, in words.
+/// The first law that the diagram breaks, in words. The points for the labels have a seed of their own: they must not be
+/// the sites.
 std::string broken_law(const Problem& p, int seed) {
   const FaceDomain domain = p.face.domain();
   VoronoiOptions options;
@@ -155,7 +156,7 @@ std::string broken_law(const Problem& p, int seed) {
   if (!c.holds()) return c.result;
   if (const int number = euler_number(domain, d); number != p.euler) return "Euler number " + std::to_string(number);
   const DistanceFinder finder(domain.surface());
-  const LabelCheck labels = compare_with_brute_force(domain, d, shortest_by(finder), kLabels, seed);
+  const LabelCheck labels = compare_with_brute_force(domain, d, shortest_by(finder), kLabels, kProblems + seed);
   if (labels.wrong > 0) return std::to_string(labels.wrong) + " labels, first " + labels.first_wrong;
   if (labels.undecided > kLabels / 10) return std::to_string(labels.undecided) + " labels undecided";
   return "";
