@@ -23,7 +23,7 @@ constexpr double kTallest = 0.5, kWidest = 2.0;
 // How far the tints of the cells are moved towards white.
 constexpr double kPale = 0.45;
 
-constexpr int kDecimals = 2;
+constexpr int kDecimals = 1;
 
 std::vector<Xyz> corners(const CellRaster& raster) {
   std::vector<Xyz> points;
@@ -65,7 +65,7 @@ void FaceViews::append_head(const std::string& title, const std::string& style) 
            "\" viewBox=\"0 0 " + width + ' ' + height + "\">\n<title>" + title + "</title>\n";
   text_ +=
       "<style>path{stroke-linejoin:round;stroke-linecap:round}.b,.f{fill:none;stroke:#1c2733}"
-      ".f{stroke-opacity:.3;stroke-width:1}.b{stroke-width:1.3}" +
+      ".f{stroke-opacity:.3;stroke-width:1}.b{stroke-width:1.3}.p path{fill:currentColor;stroke:currentColor}" +
       style + "</style>\n";
   text_ += "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"#fbfbfa\"/>\n";
 }
@@ -78,17 +78,21 @@ PagePoint FaceViews::on_plane(Uv p) const {
 
 void FaceViews::append_number(double x) { append_rounded(text_, x, kDecimals); }
 
-void FaceViews::append_point(char command, const PagePoint& p) {
-  text_ += command;
-  append_number(p.x);
-  text_ += ' ';
-  append_number(p.y);
+void FaceViews::append_path(const PathData& path, const std::string& attributes) {
+  text_ += "<path " + attributes + " d=\"" + path.text() + "\"/>\n";
 }
 
-void FaceViews::append_polygon(const std::array<PagePoint, 4>& corners, const std::string& fill) {
-  text_ += "<path d=\"";
-  for (int k = 0; k < 4; ++k) append_point(k == 0 ? 'M' : 'L', corners[k]);
-  text_ += "Z\" fill=\"" + fill + "\" stroke=\"" + fill + "\"/>\n";
+void FaceViews::append_polygon(const std::array<PagePoint, 4>& corners, const std::string& colour) {
+  if (colour != colour_) end_polygons();
+  colour_ = colour;
+  polygons_.move(corners[0]);
+  for (int k = 1; k < 4; ++k) polygons_.line(corners[k]);
+  polygons_.close();
+}
+
+void FaceViews::end_polygons() {
+  if (!polygons_.empty()) append_path(polygons_, "color=\"" + colour_ + '"');
+  polygons_ = {};
 }
 
 std::string FaceViews::lit_tint(const LinearColour& tint, const Xyz& normal) const {
@@ -96,9 +100,11 @@ std::string FaceViews::lit_tint(const LinearColour& tint, const Xyz& normal) con
 }
 
 void FaceViews::paint(const std::function<LinearColour(int site)>& tint) {
-  text_ += "<g shape-rendering=\"crispEdges\">\n";  // with the strokes: no hairlines between patches
+  text_ += "<g class=\"p\" shape-rendering=\"crispEdges\">\n";  // with the strokes: no hairlines between patches
   paint_space(tint);
+  end_polygons();
   paint_plane(tint);
+  end_polygons();
   text_ += "</g>\n";
   append_frame();
   for (size_t i = 0; i < raster_.border.size(); ++i) {
@@ -128,12 +134,11 @@ void FaceViews::paint_space(const std::function<LinearColour(int site)>& tint) {
 // The rectangle of the parameters: what is no border of the face in it is a seam or a pole.
 void FaceViews::append_frame() {
   const UvBox& b = raster_.box;
-  text_ += "<path class=\"f\" d=\"";
-  append_point('M', on_plane({b.u.lo, b.v.lo}));
-  append_point('L', on_plane({b.u.hi, b.v.lo}));
-  append_point('L', on_plane({b.u.hi, b.v.hi}));
-  append_point('L', on_plane({b.u.lo, b.v.hi}));
-  text_ += "Z\"/>\n";
+  PathData frame;
+  frame.move(on_plane({b.u.lo, b.v.lo}));
+  for (Uv p : {Uv{b.u.hi, b.v.lo}, Uv{b.u.hi, b.v.hi}, Uv{b.u.lo, b.v.hi}}) frame.line(on_plane(p));
+  frame.close();
+  append_path(frame, "class=\"f\"");
   text_ += "<clipPath id=\"plane\"><rect x=\"";
   append_number(plane_.left);
   text_ += "\" y=\"";
@@ -145,34 +150,36 @@ void FaceViews::append_frame() {
   text_ += "\"/></clipPath>\n";
 }
 
-// One polygon a run of patches of the same cell in a row.
+// One path a cell: all of it has the same shade.
 void FaceViews::paint_plane(const std::function<LinearColour(int site)>& tint) {
-  for (size_t i = 0; i < raster_.patches.size();) {
-    size_t last = i;
-    const auto joins = [&](const CellPatch& a, const CellPatch& b) {
-      return a.site == b.site && a.uv[1] == b.uv[0] && a.uv[2] == b.uv[3];
-    };
-    while (last + 1 < raster_.patches.size() && joins(raster_.patches[last], raster_.patches[last + 1])) ++last;
-    const CellPatch &a = raster_.patches[i], &b = raster_.patches[last];
-    append_polygon({on_plane(a.uv[0]), on_plane(b.uv[1]), on_plane(b.uv[2]), on_plane(a.uv[3])},
-                   lit_tint(tint(a.site), view_.towards_viewer()));
-    i = last + 1;
+  std::vector<const CellPatch*> patches;
+  for (const CellPatch& p : raster_.patches) patches.push_back(&p);
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const CellPatch* a, const CellPatch* b) { return a->site < b->site; });
+  for (const CellPatch* p : patches) {
+    append_polygon({on_plane(p->uv[0]), on_plane(p->uv[1]), on_plane(p->uv[2]), on_plane(p->uv[3])},
+                   lit_tint(tint(p->site), view_.towards_viewer()));
   }
 }
 
-void FaceViews::space_line(const std::vector<Xyz>& line, const char* style) {
-  bool drawing = false, any = false;
-  std::string before = text_;
-  text_ += std::string("<path class=\"") + style + "\" d=\"";
-  for (size_t i = 0; i + 1 < line.size(); ++i) {
-    const bool hidden = depth_.hides(view_(0.5 * (line[i] + line[i + 1])), kHiddenSlack);
-    if (!hidden && !drawing) append_point('M', view_(line[i]));
-    if (!hidden) append_point('L', view_(line[i + 1]));
-    drawing = !hidden;
-    any = any || drawing;
+void FaceViews::append_lines(const std::vector<PagePoint>& points, const std::vector<char>& shown, const char* style) {
+  PathData path;
+  for (size_t i = 0; i + 1 < points.size(); ++i) {
+    if (!shown[i]) continue;
+    if (i == 0 || !shown[i - 1]) path.move(points[i]);
+    path.line(points[i + 1]);
   }
-  text_ += "\"/>\n";
-  if (!any) text_ = std::move(before);
+  if (!path.empty()) append_path(path, std::string("class=\"") + style + '"');
+}
+
+void FaceViews::space_line(const std::vector<Xyz>& line, const char* style) {
+  std::vector<PagePoint> points;
+  std::vector<char> shown;
+  for (const Xyz& p : line) points.push_back(view_(p));
+  for (size_t i = 0; i + 1 < line.size(); ++i) {
+    shown.push_back(!depth_.hides(view_(0.5 * (line[i] + line[i + 1])), kHiddenSlack));
+  }
+  append_lines(points, shown, style);
 }
 
 void FaceViews::plane_line(const std::vector<Uv>& line, const char* style) {
@@ -182,20 +189,16 @@ void FaceViews::plane_line(const std::vector<Uv>& line, const char* style) {
     const double du = kRounding * box.u.length(), dv = kRounding * box.v.length();
     return p.u >= box.u.lo - du && p.u <= box.u.hi + du && p.v >= box.v.lo - dv && p.v <= box.v.hi + dv;
   };
-  std::string path;
-  path.swap(text_);
-  bool drawing = false;
+  std::vector<PagePoint> points;
+  std::vector<char> shown;
+  for (Uv p : line) points.push_back(on_plane(p));
   for (size_t i = 0; i + 1 < line.size(); ++i) {
     const UvVec way = line[i + 1] - line[i];
     const bool jump =
         line.size() > 2 && (std::abs(way.u) > 0.6 * box.u.length() || std::abs(way.v) > 0.6 * box.v.length());
-    const bool shown = !jump && in_box(line[i]) && in_box(line[i + 1]);
-    if (shown && !drawing) append_point('M', on_plane(line[i]));
-    if (shown) append_point('L', on_plane(line[i + 1]));
-    drawing = shown;
+    shown.push_back(!jump && in_box(line[i]) && in_box(line[i + 1]));
   }
-  path.swap(text_);
-  if (!path.empty()) text_ += std::string("<path class=\"") + style + "\" d=\"" + path + "\"/>\n";
+  append_lines(points, shown, style);
 }
 
 void FaceViews::plane_copies(const std::vector<Uv>& line, double u_period, double v_period, const char* style) {
@@ -216,11 +219,10 @@ void FaceViews::plane_copies(const std::vector<Uv>& line, double u_period, doubl
   const Turns in_u = turns(reach.u, raster_.box.u, u_period), in_v = turns(reach.v, raster_.box.v, v_period);
   for (double j = in_v.first; j <= in_v.last; ++j) {
     for (double i = in_u.first; i <= in_u.last; ++i) {
-      text_ += std::string("<path class=\"") + style + "\" clip-path=\"url(#plane)\" d=\"";
-      for (size_t n = 0; n < line.size(); ++n) {
-        append_point(n == 0 ? 'M' : 'L', on_plane(line[n] + UvVec{i * in_u.period, j * in_v.period}));
-      }
-      text_ += "\"/>\n";
+      PathData path;
+      path.move(on_plane(line.front() + UvVec{i * in_u.period, j * in_v.period}));
+      for (const Uv p : line) path.line(on_plane(p + UvVec{i * in_u.period, j * in_v.period}));
+      append_path(path, std::string("class=\"") + style + "\" clip-path=\"url(#plane)\"");
     }
   }
 }

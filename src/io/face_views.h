@@ -8,6 +8,7 @@
 
 #include "io/depth_map.h"
 #include "io/mesh_shading.h"
+#include "io/path_data.h"
 #include "io/picture_projection.h"
 #include "voronoi/cell_raster.h"
 
@@ -42,8 +43,12 @@ class FaceViews {
   PagePoint on_plane(Uv p) const;
   void append_head(const std::string& title, const std::string& style);
   void append_number(double x);
-  void append_point(char command, const PagePoint& p);
-  void append_polygon(const std::array<PagePoint, 4>& corners, const std::string& fill);
+  void append_path(const PathData& path, const std::string& attributes);
+  /// Polygons of one colour in a row are one path: text_ has it only from end_polygons() on.
+  void append_polygon(const std::array<PagePoint, 4>& corners, const std::string& colour);
+  void end_polygons();
+  /// The pieces i to i + 1 that are shown.
+  void append_lines(const std::vector<PagePoint>& points, const std::vector<char>& shown, const char* style);
   void append_dot(const PagePoint& p, const char* style, double radius);
   std::string lit_tint(const LinearColour& tint, const Xyz& normal) const;
   void paint_space(const std::function<LinearColour(int site)>& tint);
@@ -55,6 +60,8 @@ class FaceViews {
   PictureProjection view_;
   PageFrame plane_;
   DepthMap depth_;
+  PathData polygons_;
+  std::string colour_;  ///< of polygons_
   std::string text_;
 };
 

@@ -18,9 +18,9 @@ constexpr double kBorderDeflection = 1e-6;
 // Areas of the cells and the face agree to this where all is well.
 constexpr double kAreasAgree = 1e-3;
 
-// Patches of a picture: some 4 units high on a usual page.
-constexpr int kRasterRows = 160;
-constexpr int kRasterColumns = 48;
+// Of a picture: along edges its patches are some 6 units high on a usual page.
+constexpr int kRasterRows = 128;
+constexpr int kRasterColumns = 40;
 
 std::string text(double x) {
   char buffer[32];

@@ -23,8 +23,8 @@ struct CellRaster {
   std::vector<std::vector<Xyz>> border;
 };
 
-/// Rows of constant v, cut where they meet the edges, the border and the columns. For the eye: a patch may reach beyond
-/// the cell by a part of a row.
+/// Along the edges and the border, pieces of single rows of constant v; elsewhere blocks of rows and columns, as large
+/// as the bend of the face allows. For the eye: a patch may reach beyond the cell by a part of a row.
 CellRaster raster_of_cells(const FaceDomain& domain, const VoronoiDiagram& diagram, int rows, int columns);
 
 }  // namespace geovor

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "diagram_json.h"
 #include "io/diagram_svg.h"
+#include "io/path_data.h"
 
 namespace geovor {
 namespace {
@@ -161,6 +162,19 @@ TEST(DiagramSvg, DrawsEverySiteAndEdgeInBothViews) {
   EXPECT_EQ(occurrences(svg, "class=\"e\""), 2);
   EXPECT_EQ(occurrences(svg, "class=\"d\""), 2);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(PathData, StepsFromPointToPointInTenths) {
+  PathData path;
+  path.move({10.04, 0.26, 0.0});
+  path.line({10.0, 0.3, 0.0});  // the same tenths
+  path.line({12.5, -0.7, 0.0});
+  path.line({12.0, -1.2, 0.0});
+  path.line({13.0, -1.2, 0.0});
+  path.line({13.0, 0.0, 0.0});
+  path.close();
+  path.move({0.0, 0.0, 0.0});
+  EXPECT_EQ(path.text(), "M10 .3l2.5-1-.5-.5h1v1.2zM0 0");
 }
 
 TEST(DiagramSvg, LeavesOutWhatIsHidden) {
