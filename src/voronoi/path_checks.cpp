@@ -48,9 +48,12 @@ double relative_spread(double lo, double hi) {
   return std::isfinite(spread) ? spread : kInf;
 }
 
+// The free end of a cut locus has one geodesic, which can't differ from itself; and its end is conjugate to the site,
+// so that Newton's method for a geodesic to that place has nothing to divide by.
 double edge_residual(const SiteRays& rays, const DiagramEdge& e) {
   double worst = 0.0;
   for (const EdgePoint& p : e.points) {
+    if (e.left == e.right && p.left_angle == p.right_angle) continue;
     const double a = distance_anew(rays, e.left, p.uv, {p.radius, p.left_angle});
     const double b = distance_anew(rays, e.right, p.uv, {p.radius, p.right_angle});
     worst = std::max(worst, relative_spread(std::min(a, b), std::max(a, b)));
@@ -59,6 +62,7 @@ double edge_residual(const SiteRays& rays, const DiagramEdge& e) {
 }
 
 double vertex_residual(const SiteRays& rays, const DiagramVertex& v) {
+  if (v.sites.size() == 1) return 0.0;
   double lo = kInf, hi = 0.0;
   for (size_t i = 0; i < v.sites.size(); ++i) {
     const double d = distance_anew(rays, v.sites[i], v.uv, {v.radius, v.angles[i]});

@@ -172,7 +172,10 @@ class SitePlacer {
     const VoronoiDiagram diagram = build_diagram(domain_, sites_, options);
     const SiteRays rays(domain_.surface(), sites_);
     const BorderDistance border(domain_.surface(), border_, kBorderStep * largest_);
-    return FarPoints(rays, diagram, border, tie_).points();
+    std::vector<FarPoint> points = FarPoints(rays, diagram, border, tie_).points();
+    // Where the path from a site to a place on the border leaves the face, so may the point on it.
+    std::erase_if(points, [this](const FarPoint& p) { return !domain_.contains(domain_.to_principal(p.uv)); });
+    return points;
   }
 
   [[noreturn]] void throw_narrow() const {

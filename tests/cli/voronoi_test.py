@@ -149,6 +149,20 @@ class Voronoi(ProgramTest):
         self.succeed("voronoi", sample("wave.step"), "--count", 10, "-o", "out.svg")
         root = xml.etree.ElementTree.parse(self.folder / "out.svg").getroot()
         self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        self.assertLess((self.folder / "out.svg").stat().st_size, 300_000)  # a page of documents can hold it
+
+    def test_a_cut_locus_that_ends_freely_has_residuals(self):
+        # Its end is conjugate to the site: no second geodesic is there to measure against.
+        document = self.diagram("torus.step", "--count", 2)
+        self.assertIn(1, [len(vertex["sites"]) for vertex in document["vertices"]])
+        for item in document["vertices"] + document["edges"]:
+            self.assertLess(item["residual"], 1e-9)
+
+    def test_placed_sites_lie_in_the_face_where_paths_to_its_border_leave_it(self):
+        # Geodesics along the paraboloid's straight sides bulge out over them.
+        document = self.diagram("paraboloid.step", "--count", 9, "--seed", 2)
+        for site in document["sites"]:
+            self.assertLessEqual(max(map(abs, site["uv"])), 1.0)
 
 
 if __name__ == "__main__":
