@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "surface/forms.h"
+
 namespace geovor {
 namespace {
 
@@ -13,6 +15,10 @@ constexpr double kStep = 0.5;
 constexpr double kStepNearSite = 0.2;
 constexpr double kLeastStep = 1e-4;
 constexpr double kOwnDisk = 0.5;
+
+// Where the owner may have several geodesics, one must be told from the next: steps in which a ray's angle or the
+// surface's normal turns by no more than this (radians).
+constexpr double kStepAmongBranches = 0.5;
 
 // As a part of the least step.
 constexpr double kBesideSite = 0.1;
@@ -37,10 +43,14 @@ constexpr int kMostRootSteps = 100;
 // A root is one where the two distances agree to this part; differences cancel most of the noise of one distance.
 constexpr double kRoot = 1e-13;
 
+// Up to here rough rays will do; from there a few secants lead to the root, where the border has no corner.
+constexpr double kRoughRoot = 10.0 * kRoughly;
+constexpr int kMostSecants = 5;
+
 // Distances below this part of the radius are one.
 constexpr double kTie = 1e-10;
 
-/// The generators that can own a place, or something near it, by length.
+/// The owner of a place and its ties, then, roughly, the generators that can own something near it.
 struct Label {
   double at = 0.0;
   std::vector<SiteRay> candidates;
@@ -97,7 +107,7 @@ class CycleScan {
   Label label(double at, double reach) const {
     Label l{at, sites_.nearest(uv(at))};
     if (l.candidates.empty() || !(reach > 0.0)) return l;
-    const auto more = sites_.nearer_than(l.owner().polar.s + 2.0 * reach, uv(at), l.candidates);
+    const auto more = sites_.roughly_nearer_than(l.owner().polar.s + 2.0 * reach, uv(at), l.candidates);
     l.candidates.insert(l.candidates.end(), more.begin(), more.end());
     return l;
   }
@@ -105,7 +115,12 @@ class CycleScan {
   /// Length in space.
   double step_from(const Label& l) const {
     if (l.candidates.empty()) return least_step_;
-    return std::max({kStep * l.owner().polar.s, kStepNearSite * apart(l.owner().site), least_step_});
+    const SiteRay& owner = l.owner();
+    double step = kStep * owner.polar.s;
+    if (!sites_.unique_to(owner.site, owner.polar.s + 2.0 * step)) {
+      step = std::min({step, kStepAmongBranches * std::abs(owner.y), kStepAmongBranches / rays_.curvature()});
+    }
+    return std::max({step, kStepNearSite * apart(owner.site), least_step_});
   }
 
   /// From a site to its nearest neighbour, in a straight line.
@@ -154,12 +169,18 @@ class CycleScan {
     const double h = way.norm();
     for (const SiteRay& c : from.candidates) {
       for (const SiteRay& d : to.candidates) {
-        if (c.site != d.site || c.site == a.site || d.site == b.site) continue;
+        if (c.site != d.site || same_generator(c, a) || same_generator(d, b)) continue;
+        if ((c.site == a.site || d.site == b.site) && turns_over(c, d)) continue;
         const double falls = (c.T - a.T).dot(way) / h, rises = (d.T - b.T).dot(way) / h;
         if (cubic_minimum(c.polar.s - a.polar.s, falls, d.polar.s - b.polar.s, rises, h) < 0.0) return true;
       }
     }
     return false;
+  }
+
+  /// Whether the site of both has one geodesic only to each place between their ends.
+  bool unique(const SiteRay& a, const SiteRay& b) const {
+    return sites_.unique_to(a.site, std::max(a.polar.s, b.polar.s) + (b.x - a.x).norm());
   }
 
   /// Whether two rays of one site may be different geodesics.
@@ -176,14 +197,20 @@ class CycleScan {
     return rays_.to(ray.site, uv(at), carry(ray, rays_.surface().position(uv(at))));
   }
 
+  std::optional<SiteRay> follow_roughly(const SiteRay& ray, double at) const {
+    return rays_.roughly_to(ray.site, uv(at), carry(ray, rays_.surface().position(uv(at))));
+  }
+
   /// The changes between two owners. A step on which one of them can't be followed is too long.
   void collect(double lo, const SiteRay& a, double hi, const SiteRay& b, int depth) {
     if (depth > kMostChanges) return;
-    if (a.site == b.site && ((in_own_disk(a) && in_own_disk(b)) || !turns_over(a, b))) return;
+    if (a.site == b.site && ((in_own_disk(a) && in_own_disk(b)) || (!turns_over(a, b) && unique(a, b)))) return;
     const auto a_there = follow(a, hi), b_here = follow(b, lo);
     const bool followed = a_there && b_here && (depth >= kMostHalvings || !turns_over(a, b));
-    if (followed && same_generator(*a_there, b)) return;
-    const auto change = followed ? root(lo, a, *b_here, hi, *a_there, b) : std::nullopt;
+    const bool there = followed && same_generator(*a_there, b), back = followed && same_generator(*b_here, a);
+    if (there && back) return;
+    // One way only: near a conjugate point Newton's method has gone over to the other.
+    const auto change = followed && !there && !back ? root(lo, a, *b_here, hi, *a_there, b) : std::nullopt;
     if (!change) {
       const double middle = 0.5 * (lo + hi);
       const auto owner = depth < kMostHalvings ? sites_.nearest(uv(middle)) : std::vector<SiteRay>{};
@@ -209,26 +236,62 @@ class CycleScan {
     double at;
     SiteRay before, after;
   };
-  /// Root of d_a - d_b on [lo, hi] by the Illinois variant of false position, which needs no derivative and so does not
-  /// mind the corners of the border.
+  static bool is_root(const Root& r) {
+    return std::abs(r.before.polar.s - r.after.polar.s) <= kRoot * r.before.polar.s;
+  }
+
+  /// Root of d_a - d_b on [lo, hi].
   std::optional<Root> root(double lo, const SiteRay& a_lo, const SiteRay& b_lo, double hi, const SiteRay& a_hi,
                            const SiteRay& b_hi) const {
-    double f_lo = a_lo.polar.s - b_lo.polar.s, f_hi = a_hi.polar.s - b_hi.polar.s;
-    const auto is_root = [](double f, const SiteRay& ray) { return std::abs(f) <= kRoot * ray.polar.s; };
-    if (is_root(f_lo, a_lo)) return Root{lo, a_lo, b_lo};
-    if (is_root(f_hi, a_hi)) return Root{hi, a_hi, b_hi};
+    const Root from{lo, a_lo, b_lo}, to{hi, a_hi, b_hi};
+    if (is_root(from)) return from;
+    if (is_root(to)) return to;
+    const auto roughly = bracketed_root(from, to, kRoughRoot);
+    if (roughly) {
+      if (const auto exact = secant_root(*roughly, lo, hi)) return exact;
+    }
+    return bracketed_root(from, to, kRoot);
+  }
+
+  /// From a place very near to a root.
+  std::optional<Root> secant_root(const Root& start, double lo, double hi) const {
+    Root r = start;
+    double last_at = 0.0, last_f = 0.0;
+    for (int i = 0; i < kMostSecants; ++i) {
+      const auto a = follow(r.before, r.at), b = follow(r.after, r.at);
+      if (!a || !b) return std::nullopt;
+      r.before = *a, r.after = *b;
+      if (is_root(r)) return r;
+      const double f = a->polar.s - b->polar.s;
+      const double slope =
+          i == 0 ? (a->T - b->T).dot(push_forward(rays_.surface().jet(a->uv), border_.direction(place(r.at))))
+                 : (f - last_f) / (r.at - last_at);
+      last_at = r.at, last_f = f;
+      r.at -= f / slope;
+      if (!(r.at > lo && r.at < hi)) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  /// By the Illinois variant of false position, which needs no derivative and so does not mind the corners of the
+  /// border.
+  std::optional<Root> bracketed_root(const Root& from, const Root& to, double tolerance) const {
+    double lo = from.at, hi = to.at;
+    double f_lo = from.before.polar.s - from.after.polar.s, f_hi = to.before.polar.s - to.after.polar.s;
     if (!(f_lo < 0.0 && f_hi > 0.0)) return std::nullopt;
-    SiteRay a = a_lo, b = b_lo;
+    SiteRay a = from.before, b = from.after;
     double k = lo;
     int last_side = 0;
     for (int i = 0; i < kMostRootSteps; ++i) {
       k = (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
       if (!(k > lo && k < hi)) k = 0.5 * (lo + hi);
-      const auto next_a = follow(a, k), next_b = follow(b, k);
+      const bool rough = tolerance > kRoughly;
+      const auto next_a = rough ? follow_roughly(a, k) : follow(a, k),
+                 next_b = rough ? follow_roughly(b, k) : follow(b, k);
       if (!next_a || !next_b) return std::nullopt;
       a = *next_a, b = *next_b;
       const double f = a.polar.s - b.polar.s;
-      if (is_root(f, a) || k == lo || k == hi) break;
+      if (std::abs(f) <= tolerance * a.polar.s || k == lo || k == hi) break;
       const int side = f < 0.0 ? -1 : 1;
       (side < 0 ? lo : hi) = k;
       (side < 0 ? f_lo : f_hi) = f;

@@ -76,6 +76,7 @@ NearbySites::NearbySites(const SiteRays& rays)
 
 // Any two geodesics of the length make less than what the survey says of a second one.
 bool NearbySites::unique_to(int site, double limit) const {
+  if (closed_form_) return false;
   Knowledge& k = known_[site];
   if (limit <= k.certain) return true;
   if (!(limit < k.open)) return false;
@@ -89,9 +90,16 @@ bool NearbySites::unique_to(int site, double limit) const {
 }
 
 std::vector<SiteRay> NearbySites::nearer_than(double limit, Uv m, const std::vector<SiteRay>& known) const {
-  const Query q{m, rays_.surface().position(m), limit};
+  return nearer_than({m, rays_.surface().position(m), limit}, known);
+}
+
+std::vector<SiteRay> NearbySites::roughly_nearer_than(double limit, Uv m, const std::vector<SiteRay>& known) const {
+  return nearer_than({m, rays_.surface().position(m), limit, true}, known);
+}
+
+std::vector<SiteRay> NearbySites::nearer_than(const Query& q, const std::vector<SiteRay>& known) const {
   std::vector<int> near;
-  tree_.collect(q.x, limit, near);
+  tree_.collect(q.x, q.limit, near);
   std::vector<SiteRay> found;
   for (const int site : near) add(q, site, known, found);
   sort_by_length(found);
@@ -117,7 +125,7 @@ bool NearbySites::add_unique(const Query& q, int site, std::vector<SiteRay>& fou
   if (!ray) return false;
   // A longer geodesic says something of shorter ones only if it is unique itself.
   if (ray->polar.s > kClearly * q.limit) return unique_to(site, ray->polar.s);
-  ray = rays_.to(site, q.m, ray->polar);
+  if (!q.roughly) ray = rays_.to(site, q.m, ray->polar);
   if (!ray) return false;
   if (ray->polar.s < q.limit) found.push_back(*ray);
   return true;
@@ -150,7 +158,7 @@ const PolarAtlas& NearbySites::atlas(int site, double limit) const {
 // The ray that a hit stands for, roughly where it is too long to count.
 std::optional<SiteRay> NearbySites::settle(const Query& q, int site, const AtlasHit& hit) const {
   auto ray = rays_.roughly_to(site, q.m, hit.at);
-  if (ray && ray->polar.s > kClearly * q.limit) return ray;
+  if (ray && (q.roughly || ray->polar.s > kClearly * q.limit)) return ray;
   ray = rays_.to(site, q.m, ray ? ray->polar : hit.at);
   if (ray) return ray;
   ConnectOptions once;

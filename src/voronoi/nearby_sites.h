@@ -30,6 +30,9 @@ class NearbySites {
   /// each as exact as SiteRays::to(). A site at m itself has no direction there: its ray has the length 0 and y = 0.
   std::vector<SiteRay> nearer_than(double limit, Uv m, const std::vector<SiteRay>& known) const;
 
+  /// The same to kRoughly.
+  std::vector<SiteRay> roughly_nearer_than(double limit, Uv m, const std::vector<SiteRay>& known) const;
+
   /// The shortest geodesic from any site to m, and after it those that tie with it to kTie. Empty where none can be
   /// computed.
   std::vector<SiteRay> nearest(Uv m) const;
@@ -46,6 +49,9 @@ class NearbySites {
   /// round the site was lost, or where from something that was found no geodesic could be computed.
   bool complete_to(int site, double limit) const;
 
+  /// Whether the curvature is known to allow no two geodesics shorter than `limit` from the site to one point.
+  bool unique_to(int site, double limit) const;
+
   static constexpr double kTie = 1e-10;
   /// In parts of the domain's extents.
   static constexpr double kBeyond = 0.25;
@@ -60,8 +66,9 @@ class NearbySites {
     Uv m;
     Xyz x;
     double limit;
+    bool roughly = false;
   };
-  bool unique_to(int site, double limit) const;
+  std::vector<SiteRay> nearer_than(const Query& q, const std::vector<SiteRay>& known) const;
   void add(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
   bool add_unique(const Query& q, int site, std::vector<SiteRay>& found) const;
   void add_closed_form(const Query& q, int site, const std::vector<SiteRay>& known, std::vector<SiteRay>& found) const;
