@@ -10,19 +10,42 @@
 namespace geovor {
 namespace {
 
-// A segment of the border is taken in parts that are seen from the site under no more than about this angle, where the
-// cell is flat for its size and where it is not, but none shorter than a part of the segment: the border may run
-// through the site. Five nodes leave 1e-9 of such a part.
-constexpr double kBorderPart = 0.1;
+// A segment of the border is taken in parts that are seen from the site under so small an angle that of the polynomial
+// through the nodes the highest term is this part of the whole: with terms that fall evenly the rule of twice the order
+// leaves 1e-8. None is shorter than a part of the segment: the border may run through the site.
+constexpr double kFirstPart = 0.1;
 constexpr double kLongestPart = 0.5;
-constexpr double kShortestPart = 1e-3;
+constexpr double kShortestPart = 1e-4;
 constexpr int kNodes = 5;
+constexpr double kHighestTerm = 1e-3;
+
+// Parts twice as long have a term 16 times as large.
+constexpr double kMuchLess = 0.05;
+
+// Between two places a ray's angle changes by what its slopes at both say, but for this part of it; more means another
+// geodesic of the site. A change too small to tell is none.
+constexpr double kJump = 0.25;
+constexpr double kNoChange = 1e-6;
+
+// Within so many steps of the site the border passes it by, and its ray may turn about.
+constexpr double kBesideSite = 4.0;
+
+/// Legendre's polynomial of degree kNodes - 1.
+double highest(double x) { return (35.0 * x * x * x * x - 30.0 * x * x + 3.0) / 8.0; }
+
+bool jumps(const SiteRay& a, const SiteRay& b) {
+  const Xyz way = b.x - a.x;
+  if (std::min(a.polar.s, b.polar.s) <= kBesideSite * way.norm()) return false;
+  const double from = a.N.dot(way) / a.y, to = b.N.dot(way) / b.y;
+  const double off = wrap_angle(b.polar.t - a.polar.t - 0.5 * (from + to));
+  return !(std::abs(off) <= kJump * (std::abs(from) + std::abs(to)) + kNoChange);
+}
 
 class Walker {
  public:
   Walker(const SiteRays& rays, int site) : rays_(rays), site_(site) {}
 
-  /// The ray to the place next to the last one; without one, the shortest.
+  /// The ray to the place next to the last one; without one, the shortest. False where the last ray does not go on.
   bool step_to(Uv m);
   void start_with(const SiteRay& ray) { last_ = ray; }
   void segment(const FaceBorder& border, int cycle, int k, Interval part_of_it);
@@ -30,18 +53,23 @@ class Walker {
   ChartPiece& seen() { return seen_; }
 
  private:
+  bool take(const FaceBorder& border, int cycle, int k, Interval part);
+
   const SiteRays& rays_;
   int site_;
   std::optional<SiteRay> last_;
-  double bend_ = 1.0;  ///< what the last sector lacks of s^2 / 2, as a part of it
+  double angle_ = kFirstPart;  ///< under which the next part is to be seen
+  double highest_term_ = 0.0;  ///< of the last part, see kHighestTerm
   ChartPiece seen_;
 };
 
 bool Walker::step_to(Uv m) {
+  const Xyz x = rays_.surface().position(m);
   std::optional<SiteRay> ray;
-  if (last_) ray = rays_.to(site_, m, carry(*last_, rays_.surface().position(m)));
+  if (last_) ray = rays_.to(site_, m, carry(*last_, x));
+  if (ray && last_ && jumps(*last_, *ray)) ray.reset();
   if (!ray) ray = rays_.to(site_, m);
-  if (!ray) return false;
+  if (!ray || (last_ && jumps(*last_, *ray))) return false;
   if (last_) {
     const double turn = wrap_angle(ray->polar.t - last_->polar.t);
     seen_.turn += turn;
@@ -53,28 +81,48 @@ bool Walker::step_to(Uv m) {
   return true;
 }
 
-// A segment's slope in t is its way along N divided by y. Parts are as long as a fraction of the distance to the site,
-// which changes no faster than they go on.
-void Walker::segment(const FaceBorder& border, int cycle, int k, Interval f) {
+// The slope of a place in t is the way along N divided by y.
+bool Walker::take(const FaceBorder& border, int cycle, int k, Interval part) {
   const GaussRule& rule = gauss_legendre(kNodes);
   const Surface& surface = rays_.surface();
+  double sum = 0.0, scale = 0.0, term = 0.0;
+  for (int i = 0; i < kNodes; ++i) {
+    const double at = part.lo + 0.5 * (1.0 + rule.nodes[i]) * part.length();
+    const Uv m = border.uv_in_segment(cycle, k, at);
+    if (!step_to(m)) return false;
+    const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, rays_.curvature(), RayParts::WithSector);
+    const Xyz along = push_forward(surface.jet(m), border.direction({cycle, k + at}));
+    const double f = last_->N.dot(along) / last_->y * end.sector;
+    sum += 0.5 * rule.weights[i] * f;
+    term += 0.5 * (2 * kNodes - 1) * rule.weights[i] * highest(rule.nodes[i]) * f;
+    scale += 0.5 * rule.weights[i] * std::abs(along.norm() / last_->y * end.sector);
+  }
+  highest_term_ = std::abs(term) / scale;
+  seen_.area += sum * part.length();
+  return std::isfinite(sum);
+}
+
+// Parts are as long as an angle about the site, which changes no faster than they go on.
+void Walker::segment(const FaceBorder& border, int cycle, int k, Interval f) {
   const double length =
-      norm(surface.jet(border.uv_in_segment(cycle, k, f.middle())), border.direction({cycle, k + f.middle()}));
-  for (double done = f.lo; done < f.hi && seen_.found;) {
+      norm(rays_.surface().jet(border.uv_in_segment(cycle, k, f.middle())), border.direction({cycle, k + f.middle()}));
+  for (double done = f.lo; done < f.hi;) {
     // Where y is small, angles change faster than the distance tells.
     const double off = last_ ? std::min(last_->polar.s, std::abs(last_->y)) : length;
-    const double angle = std::min(kLongestPart, kBorderPart / std::sqrt(std::sqrt(bend_)));
-    const double part = std::min(f.hi - done, std::max(angle * off / length, kShortestPart));
-    for (int i = 0; i < kNodes; ++i) {
-      const double at = done + 0.5 * (1.0 + rule.nodes[i]) * part;
-      const Uv m = border.uv_in_segment(cycle, k, at);
-      seen_.found = step_to(m);
-      if (!seen_.found) return;
-      const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, rays_.curvature(), RayParts::WithSector);
-      bend_ = std::abs(2.0 * end.sector / (end.polar.s * end.polar.s) - 1.0);
-      const Xyz along = push_forward(surface.jet(m), border.direction({cycle, k + at}));
-      seen_.area += 0.5 * rule.weights[i] * part * last_->N.dot(along) / last_->y * end.sector;
+    const double part = std::min(f.hi - done, std::max(angle_ * off / length, kShortestPart));
+    const auto last = last_;
+    const ChartPiece seen = seen_;
+    const bool taken = take(border, cycle, k, {done, done + part});
+    if (!(taken && highest_term_ <= kHighestTerm) && part > kShortestPart) {
+      last_ = last, seen_ = seen;
+      angle_ = 0.5 * std::min(angle_, part * length / off);
+      continue;
     }
+    if (!taken) {
+      seen_.found = false;
+      return;
+    }
+    if (highest_term_ < kMuchLess * kHighestTerm) angle_ = std::min(2.0 * angle_, kLongestPart);
     done += part;
   }
 }

@@ -30,6 +30,10 @@ constexpr double kConjugate = 1e-5;
 constexpr double kStretch = 0.05;
 constexpr double kLongestStretch = 0.4;
 
+// The two rays of a cut locus come no nearer to each other on a stretch than by this part of what is between them:
+// towards its free end they change like the root of the way.
+constexpr double kApproach = 0.3;
+
 // Points nearer to each other than this part of the radius do not tell a direction.
 constexpr double kSeen = 1e-8;
 
@@ -75,7 +79,7 @@ class Walker {
   void go(const Station& a, const Station& b, int depth);
   void go_to_free_end(const Station& a, const Station& b);
   Station middle(const Station& a, const Station& b, double h) const;
-  bool correct(Station& m, const Xyz& along) const;
+  bool correct(Station& m, const Xyz& along, double h) const;
   void add_area(const Station& a, const Station& m, const Station& b, double h);
   void note_turn(const Station& a, const Station& b);
   void look_between(const Station& a, const Station& b);
@@ -160,13 +164,13 @@ Station Walker::middle(const Station& a, const Station& b, double h) const {
 }
 
 // To the place x_p + a T_p + b N_p in the plane across the chord where both radial lengths agree, to the square of what
-// was missing.
-bool Walker::correct(Station& m, const Xyz& along) const {
+// was missing. Where both rays have nearly one direction, that may be anywhere: not farther than the chord is long.
+bool Walker::correct(Station& m, const Xyz& along, double h) const {
   const RayEnd &p = m.rays[0], &q = m.rays[1];
   const double lag = distance_beside(q, p.x) - p.polar.s;  // a (1 - <T_q, T_p>) - b <T_q, N_p> = lag
   const double qa = 1.0 - q.T.dot(p.T), qb = -q.T.dot(p.N), ca = along.dot(p.T), cb = along.dot(p.N);
   const double determinant = qa * cb - qb * ca, a = lag * cb / determinant, b = -lag * ca / determinant;
-  if (!m.regular || !std::isfinite(a) || !std::isfinite(b)) return false;
+  if (!m.regular || !(std::hypot(a, b) <= h)) return false;
   const double radius = p.polar.s + a;
   const Xyz place = p.x + a * p.T + b * p.N;
   for (RayEnd& ray : m.rays) {
@@ -195,7 +199,7 @@ void Walker::go(const Station& a, const Station& b, int depth) {
     return;
   }
   const double gap = (m.rays[0].x - m.rays[1].x).norm() / m.radius();
-  const bool corrected = correct(m, along);
+  const bool corrected = correct(m, along, h);
   if (!(gap <= kHalve) && depth < kDeepest && corrected) {
     const Station anew = at(m.rays[0].polar, m.rays[1].polar);
     if (found(anew) && anew.regular) {
@@ -267,7 +271,7 @@ void Walker::look_between(const Station& a, const Station& b) {
   Station m = middle(a, b, h);
   for (int i = 0; i < kMostCorrections && found(m); ++i) {
     const double apart = (m.rays[0].x - m.rays[1].x).norm() / m.radius();
-    if (apart <= kSettled || !correct(m, along)) break;
+    if (apart <= kSettled || !correct(m, along, h)) break;
     m = at(m.rays[0].polar, m.rays[1].polar);
   }
   const double gap = found(m) ? gap_of(m, 0.5 * (m.rays[0].x + m.rays[1].x)) : 1.0;
@@ -311,6 +315,8 @@ bool Walker::ends_stretch(int i, const Station& start, const EdgePoint& next) co
   const double turn = std::max(std::abs(wrap_angle(next.left_angle - start.rays[0].polar.t)),
                                std::abs(wrap_angle(next.right_angle - start.rays[1].polar.t)));
   const double longest = stretch_from(start);
+  const double between = std::abs(wrap_angle(start.rays[0].polar.t - start.rays[1].polar.t));
+  if (edge_.left == edge_.right && !(turn <= kApproach * between)) return true;
   return !(turn <= longest && (next.xyz - start.rays[0].x).norm() <= longest * start.radius());
 }
 
