@@ -54,12 +54,6 @@ double error_of(const dop853::Step<GeodesicVector>& step, const SurfaceJet& j, d
   return std::max(settled, dop853::unsettled_error(difference, size(step.error3)));
 }
 
-// From flat ground the integrator may step over the tail of a low bump and take the error for none: on one of height
-// and width 0.5 rays of length 0.6 were 4e-11 off. Legs as long as this part of the least radius of curvature end
-// before.
-constexpr double kLongestLeg = 0.25;
-constexpr double kMostLegs = 1e4;
-
 bool within(Interval sweep, Interval range) {
   const double clear = kClear * sweep.length();
   return sweep.lo - clear > range.lo && sweep.hi + clear < range.hi;
@@ -67,17 +61,14 @@ bool within(Interval sweep, Interval range) {
 
 }  // namespace
 
-int legs_of(double bend) {
-  return bend > kLongestLeg ? static_cast<int>(std::min(std::ceil(bend / kLongestLeg), kMostLegs)) : 1;
-}
-
-RaySource::RaySource(const Surface& surface, Uv p, double curvature)
+RaySource::RaySource(const Surface& surface, Uv p, const CurvatureMap* map)
     : surface_(&surface),
       p_(p),
       jet_(surface.jet(p)),
       frame_(tangent_frame(surface, p)),
       piece_(surface, p, {}, false),
-      curvature_(std::max(curvatures(jet_).largest(), curvature)),
+      map_(map),
+      curvature_(std::max(curvatures(jet_).largest(), map ? 1.0 / map->radius(p) : 0.0)),
       closed_form_(has_closed_form(surface)) {}
 
 TracedRay RaySource::end(double s, double t, const TraceOptions& options) const {
@@ -90,8 +81,10 @@ TracedRay RaySource::end(double s, double t, const TraceOptions& options) const 
   GeodesicIntegrator path(*surface_, p_, T, s, options);
   TracedRay end;
   end.status = TraceStatus::Converged;
-  const int legs = legs_of(s * curvature_);
-  for (int i = 1; i <= legs && end.status == TraceStatus::Converged; ++i) end.status = path.advance(s * i / legs);
+  for (double leg = 0.0; leg < s && end.status == TraceStatus::Converged;) {
+    leg = map_ ? map_->leg_end(path.state().p, leg, s) : s;
+    end.status = path.advance(leg);
+  }
   end.at = path.at();
   end.d = path.state().d;
   end.jet = path.jet();

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "geodesic/curvature_map.h"
 #include "geodesic/piece.h"
 #include "geodesic/trace.h"
 #include "surface/tangent_frame.h"
@@ -22,8 +23,8 @@ struct TracedRay {
 
 class RaySource {
  public:
-  /// `curvature`: what normal curvature a ray may have to do with on its way, where more is known than that at p.
-  explicit RaySource(const Surface& surface, Uv p, double curvature = 0.0);
+  /// `map`: what is known of the surface elsewhere; it outlives the source.
+  explicit RaySource(const Surface& surface, Uv p, const CurvatureMap* map = nullptr);
 
   /// O_p(s,t) within what trace.h promises. From options.tolerance = kLoosest on a short ray is one Runge-Kutta step of
   /// order 4 without an estimate of its error, meant for the first steps of an iteration whose last one is exact.
@@ -31,7 +32,7 @@ class RaySource {
   TracedRay end(double s, double t, const TraceOptions& options) const;
 
   const TangentFrame& frame() const { return frame_; }
-  /// The larger of the largest normal curvature at the point and what was told.
+  /// The largest normal curvature at the point, or what rays no longer than its inverse may meet on their way.
   double curvature() const { return curvature_; }
 
  private:
@@ -46,15 +47,12 @@ class RaySource {
   SurfaceJet jet_;
   TangentFrame frame_;
   Piece piece_;
+  const CurvatureMap* map_;
   double curvature_;
   bool closed_form_;
 };
 
 /// From this tolerance on a ray's error need not be estimated.
 inline constexpr double kLoosest = 1e-9;
-
-/// How many legs a ray has to be traced in that is so many least radii of curvature long: steps over flat ground must
-/// not pass by what is curved.
-int legs_of(double bend);
 
 }  // namespace geovor

@@ -90,7 +90,7 @@ bool Walker::take(const FaceBorder& border, int cycle, int k, Interval part) {
     const double at = part.lo + 0.5 * (1.0 + rule.nodes[i]) * part.length();
     const Uv m = border.uv_in_segment(cycle, k, at);
     if (!step_to(m)) return false;
-    const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, rays_.curvature(), RayParts::WithSector);
+    const RayEnd end = trace_ray(surface, rays_.site(site_), last_->polar, rays_.curvature_map(), RayParts::WithSector);
     const Xyz along = push_forward(surface.jet(m), border.direction({cycle, k + at}));
     const double f = last_->N.dot(along) / last_->y * end.sector;
     sum += 0.5 * rule.weights[i] * f;

@@ -126,7 +126,7 @@ CellChart Charter::whole_surface(int site) const {
     const double t = kTwoPi * k / kAllAround;
     const auto end = first_conjugate_point(surface_, start, t, kFarthest * size);
     const RayEnd ray =
-        end ? trace_ray(surface_, start, {end->s, t}, rays_.curvature(), RayParts::WithSector) : RayEnd{};
+        end ? trace_ray(surface_, start, {end->s, t}, rays_.curvature_map(), RayParts::WithSector) : RayEnd{};
     out.found = ray.found;
     out.area += ray.sector * kTwoPi / kAllAround;
     if (end) out.nearest = out.nearest > 0.0 ? std::min(out.nearest, end->s) : end->s;
@@ -138,9 +138,8 @@ CellChart Charter::whole_surface(int site) const {
 
 DiagramCharts Charter::charts() {
   DiagramCharts out;
-  out.curvature = rays_.curvature();
   for (int e = 0; e < static_cast<int>(diagram_.edges.size()); ++e)
-    out.edges.push_back(walk_edge(surface_, rays_.curvature(), diagram_, e));
+    out.edges.push_back(walk_edge(surface_, rays_.curvature_map(), diagram_, e));
   for (const DiagramCell& cell : diagram_.cells) out.cells.push_back(chart(cell, out.edges));
   return out;
 }

@@ -24,7 +24,6 @@ struct CellChart {
 struct DiagramCharts {
   std::vector<EdgeWalk> edges;
   std::vector<CellChart> cells;
-  double curvature = 0.0;  ///< what the rays may have met: see trace_ray()
 };
 
 /// Each ray is traced from its polar coordinates alone, once for each site that it belongs to. A cell without loops, a

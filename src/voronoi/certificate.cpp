@@ -91,11 +91,12 @@ class Examiner {
 };
 
 void Examiner::trace_vertices() {
+  const CurvatureMap curvature(domain_.surface());
   for (const DiagramVertex& v : d_.vertices) {
     at_vertices_.emplace_back();
     for (std::size_t i = 0; i < v.sites.size(); ++i)
       at_vertices_.back().push_back(
-          trace_ray(domain_.surface(), site(v.sites[i]), {v.radius, v.angles[i]}, charts_.curvature));
+          trace_ray(domain_.surface(), site(v.sites[i]), {v.radius, v.angles[i]}, curvature));
   }
 }
 

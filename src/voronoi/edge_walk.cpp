@@ -61,7 +61,7 @@ SiteRay site_ray(int site, const RayEnd& e) { return {site, e.polar, {}, e.x, e.
 
 class Walker {
  public:
-  Walker(const Surface& surface, double curvature, const VoronoiDiagram& diagram, const DiagramEdge& edge)
+  Walker(const Surface& surface, const CurvatureMap& curvature, const VoronoiDiagram& diagram, const DiagramEdge& edge)
       : surface_(surface), curvature_(curvature), diagram_(diagram), edge_(edge) {}
 
   EdgeWalk walk();
@@ -91,7 +91,7 @@ class Walker {
   }
 
   const Surface& surface_;
-  double curvature_;
+  const CurvatureMap& curvature_;
   const VoronoiDiagram& diagram_;
   const DiagramEdge& edge_;
   EdgeWalk out_;
@@ -347,7 +347,7 @@ EdgeWalk Walker::walk() {
 
 }  // namespace
 
-EdgeWalk walk_edge(const Surface& surface, double curvature, const VoronoiDiagram& diagram, int edge) {
+EdgeWalk walk_edge(const Surface& surface, const CurvatureMap& curvature, const VoronoiDiagram& diagram, int edge) {
   return Walker(surface, curvature, diagram, diagram.edges[edge]).walk();
 }
 

@@ -35,7 +35,7 @@ struct EdgeWalk {
 };
 
 /// `curvature`: see trace_ray(). REQUIRES: at least two points
-EdgeWalk walk_edge(const Surface& surface, double curvature, const VoronoiDiagram& diagram, int edge);
+EdgeWalk walk_edge(const Surface& surface, const CurvatureMap& curvature, const VoronoiDiagram& diagram, int edge);
 
 /// The part of the coordinates' size that rounding may take of a difference of two lengths.
 inline constexpr double kCoordinateRounding = 8.0 * 2.220446049250313e-16;

@@ -8,7 +8,6 @@
 #include "geodesic/closed_form_path.h"
 #include "geodesic/closed_forms.h"
 #include "geodesic/integrator.h"
-#include "geodesic/ray_source.h"
 #include "surface/forms.h"
 #include "surface/tangent_frame.h"
 
@@ -22,7 +21,8 @@ constexpr double kOrdersAgree = 1e-6;
 constexpr int kMostPieces = 64;
 
 /// The states at the ends of equal pieces of the ray, the start left out; fewer where the geodesic ends early.
-std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, double curvature, int pieces) {
+std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature,
+                                     int pieces) {
   const Xyz T = tangent_frame(surface, site).at_angle(to.t);
   std::vector<SpaceState> states;
   if (has_closed_form(surface)) {
@@ -34,10 +34,13 @@ std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, 
   options.stop_at_domain = false;
   options.tolerance = kRetraceTolerance;
   GeodesicIntegrator path(surface, site, T, to.s, options);
-  const int legs = legs_of(curvature * to.s / pieces), all = pieces * legs;
-  for (int i = 1; i <= all; ++i) {
-    if (path.advance(to.s * i / all) != TraceStatus::Converged) break;
-    if (i % legs == 0) states.push_back(path.at());
+  double leg = 0.0;
+  for (int i = 1; i <= pieces; ++i) {
+    for (const double end = to.s * i / pieces; leg < end;) {
+      leg = curvature.leg_end(path.state().p, leg, end);
+      if (path.advance(leg) != TraceStatus::Converged) return states;
+    }
+    states.push_back(path.at());
   }
   return states;
 }
@@ -73,15 +76,15 @@ RayEnd end_of(const SpaceState& at, Polar to) {
 /// The ray with its sector from the integrator's own steps, which are as short as the curvature asks: on each the
 /// integral of the quintic with y, y' and y'' = -K y at both ends (error h^7 y^(6) / 100800). The sector is NaN where K
 /// is (at poles).
-RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to, double curvature) {
+RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature) {
   TraceOptions options;
   options.stop_at_domain = false;
   options.tolerance = kRetraceTolerance;
   GeodesicIntegrator path(surface, site, tangent_frame(surface, site).at_angle(to.t), to.s, options);
   double covered = 0.0, y = 0.0, dy = 1.0, ddy = 0.0, sum = 0.0;
-  const int legs = legs_of(curvature * to.s);
-  for (int leg = 1; leg <= legs; ++leg) {
-    while (path.advance_step(to.s * leg / legs)) {
+  for (double leg = 0.0; leg < to.s && path.status() == TraceStatus::Converged;) {
+    leg = curvature.leg_end(path.state().p, leg, to.s);
+    while (path.advance_step(leg)) {
       const double h = path.covered() - covered;
       if (!(h > 0.0)) continue;
       const SpaceState at = path.at();
@@ -98,7 +101,7 @@ RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to, double curvatur
 
 }  // namespace
 
-RayEnd trace_ray(const Surface& surface, Uv site, Polar to, double curvature, RayParts parts) {
+RayEnd trace_ray(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature, RayParts parts) {
   RayEnd ray;
   ray.polar = to;
   if (!(to.s > 0.0) || !std::isfinite(to.s) || !std::isfinite(to.t)) return ray;

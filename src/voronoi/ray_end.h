@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geodesic/connect.h"
+#include "geodesic/curvature_map.h"
 #include "surface/surface.h"
 
 namespace geovor {
@@ -22,9 +23,10 @@ struct RayEnd {
 
 enum class RayParts { EndAlone, WithSector };
 
-/// Beyond the surface's domain the outermost piece is continued. `curvature`: what normal curvature the ray may meet on
-/// its way; it is traced in legs that are short for it.
-RayEnd trace_ray(const Surface& surface, Uv site, Polar to, double curvature, RayParts parts = RayParts::EndAlone);
+/// Beyond the surface's domain the outermost piece is continued. The ray is traced in legs as `curvature` tells
+/// them.
+RayEnd trace_ray(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature,
+                 RayParts parts = RayParts::EndAlone);
 
 /// Of the trace, relative to the length: with what an integrator may add to it, and on two sides, still well below the
 /// 1e-12 that diagrams are held to.

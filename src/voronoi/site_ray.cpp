@@ -33,29 +33,6 @@ constexpr int kMostShots = 12;
 constexpr double kMostTurn = 0.5;
 constexpr double kMostStretch = 0.5;
 
-// A grid over the domain on which its curvature is looked at, ends left out: there may be poles.
-constexpr int kCurvatureGrid = 32;
-
-// What of an infinite domain is looked at: cylinders are the same all along it.
-Interval finite_part(Interval i) {
-  if (std::isfinite(i.lo)) return {i.lo, std::isfinite(i.hi) ? i.hi : i.lo + 1.0};
-  return {std::isfinite(i.hi) ? i.hi - 1.0 : 0.0, std::isfinite(i.hi) ? i.hi : 1.0};
-}
-
-double largest_curvature(const Surface& surface) {
-  const UvBox d = {finite_part(surface.domain().u), finite_part(surface.domain().v)};
-  double largest = 0.0;
-  for (int i = 0; i < kCurvatureGrid; ++i) {
-    for (int k = 0; k < kCurvatureGrid; ++k) {
-      const double u = d.u.lo + (i + 0.5) / kCurvatureGrid * d.u.length();
-      const double v = d.v.lo + (k + 0.5) / kCurvatureGrid * d.v.length();
-      const double c = curvatures(surface.jet({u, v})).largest();
-      if (std::isfinite(c)) largest = std::max(largest, c);
-    }
-  }
-  return largest;
-}
-
 /// From the end of the ray to the target, see moved().
 Polar second_order_step(const SiteRay& ray, const Xyz& target) {
   const double a = ray.T.dot(target - ray.x), b = ray.N.dot(target - ray.x);
@@ -66,9 +43,12 @@ Polar second_order_step(const SiteRay& ray, const Xyz& target) {
 }  // namespace
 
 SiteRays::SiteRays(const Surface& surface, const std::vector<Uv>& sites)
-    : surface_(surface), sites_(sites), closed_form_(has_closed_form(surface)), curvature_(largest_curvature(surface)) {
+    : surface_(surface),
+      sites_(sites),
+      map_(std::make_shared<CurvatureMap>(surface)),
+      closed_form_(has_closed_form(surface)) {
   sources_.reserve(sites.size());
-  for (const Uv p : sites) sources_.emplace_back(surface, p, curvature_);
+  for (const Uv p : sites) sources_.emplace_back(surface, p, map_.get());
 }
 
 std::optional<SiteRay> SiteRays::at(int site, Polar polar) const {
@@ -84,7 +64,7 @@ std::optional<RayShot> SiteRays::shoot(int site, Polar polar, double tolerance) 
   options.tolerance = tolerance;
   const bool known = site < static_cast<int>(sources_.size());
   const TracedRay end = known ? sources_[site].end(polar.s, polar.t, options)
-                              : RaySource(surface_, sites_[site], curvature_).end(polar.s, polar.t, options);
+                              : RaySource(surface_, sites_[site], map_.get()).end(polar.s, polar.t, options);
   if (end.status != TraceStatus::Converged) return std::nullopt;
   const SpaceState& at = end.at;
   const RayShot shot{

@@ -1,6 +1,7 @@
 // Geodesics that run from the sites to a point, seen from that point: what a bisector and a vertex are made of.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -50,7 +51,8 @@ class SiteRays {
   std::optional<SiteRay> roughly_to(int site, Uv m, std::optional<Polar> guess = std::nullopt) const;
 
   /// The largest normal curvature that was found anywhere on the surface: what a ray may meet on its way.
-  double curvature() const { return curvature_; }
+  double curvature() const { return map_->largest(); }
+  const CurvatureMap& curvature_map() const { return *map_; }
 
   const Surface& surface() const { return surface_; }
   Uv site(int i) const { return sites_[i]; }
@@ -65,9 +67,9 @@ class SiteRays {
 
   const Surface& surface_;
   const std::vector<Uv>& sites_;
+  std::shared_ptr<const CurvatureMap> map_;
   std::vector<RaySource> sources_;  ///< of the sites that there were at first
   bool closed_form_;
-  double curvature_;
 };
 
 /// What the integrator is asked for, relative to the length.
