@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "surface/forms.h"
+#include "surface/pole_chart.h"
 
 namespace geovor {
 namespace {
@@ -33,6 +34,9 @@ constexpr int kMostBetween = 1024;
 // A point between two nodes lies no farther from them than this times their distance.
 constexpr double kFar = 1.5;
 
+// Nearer to a pole than this part of the radius, the parameters tell no direction.
+constexpr double kAtPole = 1e-6;
+
 /// u, v and the point in the normal coordinates (r cos t, r sin t) of both sites. Radius and angles themselves have a
 /// singularity near by, as sqrt(c^2 + x^2) has at x = ic.
 using Values = Eigen::Matrix<double, 6, 1>;
@@ -57,8 +61,9 @@ struct Node {
   BisectorPoint m;
   Values f, slope;  ///< by arc length
   Xyz x, tangent, Su, Sv;
-  double stretch = 1.0;  ///< length in space per length in the normal coordinates, at most
-  bool smooth = true;    ///< false at the free end of a cut locus, and where the surface has no coordinates
+  double stretch = 1.0;   ///< length in space per length in the normal coordinates, at most
+  bool free_end = false;  ///< of a cut locus
+  bool smooth = true;     ///< false at a free end, and where the surface has no coordinates: at poles
 };
 
 // Parameters run on from the node before.
@@ -82,7 +87,10 @@ Node node_of(const SiteRays& rays, const BisectorPoint& m, const Node* before) {
       normal_slope(r, right, slope.radius, slope.right_angle);
   node.Su = j.Su;
   node.Sv = j.Sv;
-  node.smooth = m.left.y != 0.0 && node.slope.allFinite();
+  node.free_end = m.left.y == 0.0;
+  const auto at_it = [&](const auto& chart) { return (node.x - chart->pole()).norm() <= kAtPole * r; };
+  const PoleCharts& poles = rays.surface().poles();
+  node.smooth = !node.free_end && node.slope.allFinite() && std::none_of(poles.begin(), poles.end(), at_it);
   return node;
 }
 
@@ -166,15 +174,17 @@ class DenseEdge {
   // Into how many pieces the chord from node i has to be cut: the sag of a circle falls as their square.
   int pieces_of(size_t i) const {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
-    if (!a.smooth || !b.smooth) return 1;
+    if (a.free_end || b.free_end) return 1;
     const double turn = std::atan2(a.tangent.cross(b.tangent).norm(), a.tangent.dot(b.tangent));
     const double sag = (b.x - a.x).norm() * turn / 8.0;
     return sag > sag_ ? static_cast<int>(std::min(std::ceil(std::sqrt(sag / sag_)), 1.0 * kMostBetween)) : 1;
   }
 
-  // Across knots a surface has no power series, nor has what depends on rays that cross them.
+  // Across knots a surface has no power series, nor has what depends on rays that cross them; nor have parameters at a
+  // pole.
   bool exact_enough(const Piece& piece) const {
-    return rays_.surface().continuity() == Surface::kSmooth && piece.miss <= kDensePoint * piece.a->m.radius();
+    return piece.a->smooth && piece.b->smooth && rays_.surface().continuity() == Surface::kSmooth &&
+           piece.miss <= kDensePoint * piece.a->m.radius();
   }
 
   // The ends of the piece first, then their neighbours as far as the edge goes on over them.
@@ -219,7 +229,8 @@ class DenseEdge {
       const Eigen::Vector2d x = piece.a->f.segment<2>(k).normalized(), e = d.segment<2>(k);
       return std::abs(x.dot(e)) + kAngleShare * piece.a->stretch * std::abs(x[0] * e[1] - x[1] * e[0]);
     };
-    return (d[0] * piece.a->Su + d[1] * piece.a->Sv).norm() + std::max(seen(2), seen(4));
+    const auto apart = [&](const Node& node) { return (d[0] * node.Su + d[1] * node.Sv).norm(); };
+    return std::max(apart(*piece.a), apart(*piece.b)) + std::max(seen(2), seen(4));
   }
 
   // In the middle, where it is largest. Changes that fall from node to node by a factor go on to do so; and the two
