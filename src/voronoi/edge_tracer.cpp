@@ -56,6 +56,9 @@ constexpr double kOffBorder = 1e-3;
 // How often a chord near the border is halved: to a thousandth.
 constexpr int kDeepest = 10;
 
+// Chords of one cubic: as many make what sags by a part of the face's size as fine as the default tolerance.
+constexpr double kMostPieces = 256;
+
 // Chords are shorter than the way, and the border is measured to first order only.
 constexpr double kBorderMargin = 2.0;
 
@@ -108,6 +111,26 @@ bool goes_on(const BisectorPoint& a, const BisectorPoint& b) {
   return smooth(b.left.polar.t - a.left.polar.t, d.left_angle, e.left_angle) &&
          smooth(b.right.polar.t - a.right.polar.t, d.right_angle, e.right_angle);
 }
+
+/// The cubic of the parameter plane with the edge's directions at two of its points.
+class ParameterCubic {
+ public:
+  /// `from`: the copy of a's parameters where it starts.
+  ParameterCubic(const Surface& surface, const BisectorPoint& a, const BisectorPoint& b, Uv from)
+      : from_(from),
+        way_(nearest_copy(surface, a.left.uv, b.left.uv)),
+        leaves_(tangent_components(surface.jet(a.left.uv), chord(a, b) * a.tangent())),
+        arrives_(tangent_components(surface.jet(b.left.uv), chord(a, b) * b.tangent())) {}
+
+  Uv at(double k) const {
+    const double r = 1.0 - k;
+    return from_ + k * k * (3.0 - 2.0 * k) * way_ + k * r * (r * leaves_ + -k * arrives_);
+  }
+
+ private:
+  Uv from_;
+  UvVec way_, leaves_, arrives_;
+};
 
 bool near_conjugate_point(const BisectorPoint& m, double between) {
   return m.left.site == m.right.site && std::abs(wrap_angle(m.left.polar.t - m.right.polar.t)) < between;
@@ -315,7 +338,9 @@ std::optional<BorderPlace> EdgeTracer::on_border(const BisectorPoint& m) const {
 
 EdgeTracer::Step EdgeTracer::take_point(Walk& walk, const BisectorPoint& next) const {
   if (!goes_on(walk.current(), next)) return Step::Failed;
-  if (leaves_face(walk.current(), next, walk.skip(), 0)) return end_on_border(walk, next) ? Step::Ended : Step::Failed;
+  if (const auto crossing = leaves_face(walk.current(), next, walk.skip(), 0)) {
+    return end_on_border(walk, next, *crossing) ? Step::Ended : Step::Failed;
+  }
   walk.edge.points.push_back(next);
   return Step::Going;
 }
@@ -352,31 +377,58 @@ bool EdgeTracer::end_freely(Walk& walk) const {
   return true;
 }
 
-// Near the border a chord is halved until it lies as near to the edge as the border's own chords to the border.
+// Near the border a chord is halved until the cubic of the parameter plane, of which half way tells how good it is,
+// lies as near to the edge as the border's own chords to the border.
 std::optional<EdgeTracer::Crossing> EdgeTracer::leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip,
                                                             int depth) const {
   if (border_.cycle_count() == 0) return std::nullopt;
-  const Uv from = domain_.to_principal(a.left.uv);
   const double reach = kBorderMargin * chord(a, b);
+  if (depth > 0 && !border_.near_border(a.position(), reach)) return std::nullopt;
+  const Uv from = domain_.to_principal(a.left.uv);
   if (depth == 0 && domain_.contains(from) && domain_.distance_to_border(from) > reach) return std::nullopt;
   if (depth < kDeepest && sag_of(a, b) > sag_) {
     if (const auto middle = halfway(a, b)) {
-      if (const auto first = leaves_face(a, *middle, 2.0 * skip, depth + 1)) return first;
-      return leaves_face(*middle, b, 0.0, depth + 1);
+      const ParameterCubic whole(rays_.surface(), a, b, from);
+      const Xyz guess = rays_.surface().position(whole.at(0.5));
+      const bool good = (guess - middle->position()).norm() <= sag_;
+      const auto look = [&](const BisectorPoint& p, const BisectorPoint& q, double part) {
+        return good ? cubic_leaves_face(p, q, part) : leaves_face(p, q, part, depth + 1);
+      };
+      if (const auto first = look(a, *middle, 2.0 * skip)) return first;
+      return look(*middle, b, 0.0);
     }
   }
   const Uv to = from + nearest_copy(rays_.surface(), a.left.uv, b.left.uv);
-  if (const auto crossing = border_.first_crossing(from, to, skip)) return Crossing{a, b, *crossing};
+  if (const auto crossing = chord_leaves_face(from, to, skip)) return Crossing{a, b, *crossing};
+  return std::nullopt;
+}
+
+std::optional<FaceBorder::Crossing> EdgeTracer::chord_leaves_face(Uv from, Uv to, double skip) const {
+  if (const auto crossing = border_.first_crossing(from, to, skip)) return crossing;
   if (domain_.contains(to)) return std::nullopt;
   const auto place = border_.nearest(to);
   if (!place) return std::nullopt;
-  return Crossing{a, b, {*place, 1.0}};
+  return FaceBorder::Crossing{*place, 1.0};
 }
 
-bool EdgeTracer::end_on_border(Walk& walk, const BisectorPoint& next) const {
-  const auto crossing = leaves_face(walk.current(), next, walk.skip(), 0);
-  BorderPlace place = crossing->at.place;
-  const BisectorPoint& near = crossing->at.fraction < 0.5 ? crossing->from : crossing->to;
+// The chords of the cubic lie as near to it as it does to the edge.
+std::optional<EdgeTracer::Crossing> EdgeTracer::cubic_leaves_face(const BisectorPoint& a, const BisectorPoint& b,
+                                                                  double skip) const {
+  const ParameterCubic cubic(rays_.surface(), a, b, domain_.to_principal(a.left.uv));
+  const int pieces = static_cast<int>(std::clamp(std::ceil(std::sqrt(sag_of(a, b) / sag_)), 1.0, kMostPieces));
+  for (int i = 0; i < pieces; ++i) {
+    const double k = 1.0 * i / pieces, next = (i + 1.0) / pieces;
+    auto crossing = chord_leaves_face(cubic.at(k), cubic.at(next), i == 0 ? skip * pieces : 0.0);
+    if (!crossing) continue;
+    crossing->fraction = k + crossing->fraction * (next - k);
+    return Crossing{a, b, *crossing};
+  }
+  return std::nullopt;
+}
+
+bool EdgeTracer::end_on_border(Walk& walk, const BisectorPoint& next, const Crossing& crossing) const {
+  BorderPlace place = crossing.at.place;
+  const BisectorPoint& near = crossing.at.fraction < 0.5 ? crossing.from : crossing.to;
   const auto point = border_point(near, place);
   if (!point || chord(walk.current(), *point) > 2.0 * chord(walk.current(), next)) return false;
   const auto nearer =

@@ -45,6 +45,10 @@ class EdgeTracer {
   TracedEdge trace(const BisectorPoint& start, bool on_border) const;
 
  private:
+  struct Crossing {
+    BisectorPoint from, to;  ///< a chord that meets the border
+    FaceBorder::Crossing at;
+  };
   struct Walk;
   struct Vertex {
     std::vector<SiteRay> generators;
@@ -54,7 +58,7 @@ class EdgeTracer {
   Step advance(Walk& walk) const;
   Step take_vertex(Walk& walk, const Vertex& vertex) const;
   Step take_point(Walk& walk, const BisectorPoint& next) const;
-  bool end_on_border(Walk& walk, const BisectorPoint& next) const;
+  bool end_on_border(Walk& walk, const BisectorPoint& next, const Crossing& crossing) const;
   bool close(Walk& walk, double h) const;
   bool end_freely(Walk& walk) const;
   double longest_step(const BisectorPoint& m) const;
@@ -65,11 +69,9 @@ class EdgeTracer {
                                     double reach) const;
   std::optional<BisectorPoint> border_point(const BisectorPoint& near, BorderPlace& place) const;
   std::optional<BorderPlace> on_border(const BisectorPoint& m) const;
-  struct Crossing {
-    BisectorPoint from, to;  ///< a chord that meets the border
-    FaceBorder::Crossing at;
-  };
   std::optional<Crossing> leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip, int depth) const;
+  std::optional<FaceBorder::Crossing> chord_leaves_face(Uv from, Uv to, double skip) const;
+  std::optional<Crossing> cubic_leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip) const;
 
   const FaceDomain& domain_;
   const FaceBorder& border_;
