@@ -83,8 +83,8 @@ class EdgeTracer {
 /// The generators of a point sorted counter-clockwise by the directions in which their sites lie, the first stays.
 void sort_around(std::vector<SiteRay>& generators);
 
-/// Generators whose distances agree to this part of the radius make one vertex: well above the noise of distances, and
-/// far below the sharpness that the diagram promises.
-inline constexpr double kOneVertex = 1e-10;
+/// Generators whose distances agree to this part of the radius make one vertex: above the noise of distances (a few
+/// kRayTolerance), and no more than what the diagram promises of distances at a vertex.
+inline constexpr double kOneVertex = 1e-12;
 
 }  // namespace geovor

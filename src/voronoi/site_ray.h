@@ -72,8 +72,9 @@ class SiteRays {
   bool closed_form_;
 };
 
-/// What the integrator is asked for, relative to the length.
-inline constexpr double kRayTolerance = 1e-13;
+/// What the integrator is asked for, relative to the length: the ends of two rays, each within five of it as a rule
+/// (geodesic/trace.h), lie within less than 1e-12 of each other.
+inline constexpr double kRayTolerance = 5e-14;
 
 inline constexpr double kRoughly = 1e-7;
 
