@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Bnd_Box.hxx>
+#include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Curve.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <Message_Messenger.hxx>

@@ -1,8 +1,6 @@
 // What the writers of this room share; private like occ_private.h.
 #pragma once
 
-#include <Geom2d_BSplineCurve.hxx>
-#include <Geom_BSplineCurve.hxx>
 #include <functional>
 #include <string>
 #include <vector>

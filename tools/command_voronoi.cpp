@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "certificate_report.h"
 #include "commands.h"
 #include "context.h"
 #include "diagram_json.h"
@@ -23,6 +24,7 @@
 #include "pipeline/cad_cells.h"
 #include "pipeline/cell_mesh.h"
 #include "pipeline/voronoi_face.h"
+#include "progress.h"
 #include "sites_file.h"
 #include "stopwatch.h"
 
@@ -64,7 +66,13 @@ Error error_of_line(const SiteError& error, const std::string& path, const Sites
 VoronoiResult compute(const CadModel& model, const CadFace& face, const VoronoiArguments& arguments,
                       const SitesFile& file) {
   try {
-    return voronoi_face(model, face, request_of(arguments, file));
+    VoronoiRequest request = request_of(arguments, file);
+    ProgressLine progress(arguments.progress, "cells reached");
+    request.progress = [&progress](int done, int total) {
+      progress.show(done, total);
+      return true;
+    };
+    return voronoi_face(model, face, request);
   } catch (const SiteError& error) {
     if (!file.rows.empty()) throw error_of_line(error, arguments.sites, file);
     throw Error(error.code(), fmt::format("{}: {}: {}", model.file, face_label(face.number), error.what()));
@@ -156,17 +164,10 @@ bool name_failure(const CadModel& model, const CadFace& face, const VoronoiDiagr
 
 /// The claims on stdout; where one fails, a line on stderr that names it. Whether all hold.
 bool print_certificate(const CadModel& model, const CadFace& face, const Certificate& certificate) {
-  for (const CertificateClaim& claim : certificate.claims) {
-    fmt::print("{:<17} {}: {} ({:.3g}, bound {:.3g})\n", "claim", claim.name, claim.holds ? "holds" : "fails",
-               claim.measured, claim.bound);
-  }
-  fmt::print("{:<17} {}\n", "certificate", certificate.result);
-  const auto failed = std::find_if(certificate.claims.begin(), certificate.claims.end(),
-                                   [](const CertificateClaim& claim) { return !claim.holds; });
-  if (failed == certificate.claims.end()) return certificate.holds();
-  fmt::print(stderr, "geovor: {}: {}: the claim '{}' of the certificate fails near u = {:.6g}, v = {:.6g}: {}\n",
-             model.file, face_label(face.number), failed->name, failed->uv.u, failed->uv.v, failed->why);
-  return false;
+  fmt::print("{}", certificate_text(certificate));
+  const auto failed = failed_claim(certificate);
+  if (failed) fmt::print(stderr, "geovor: {}: {}: {}\n", model.file, face_label(face.number), *failed);
+  return !failed;
 }
 
 /// Not wrong, but not what was asked either: there the distances are those of the surface beyond the face.

@@ -65,6 +65,17 @@ CLI::Option* add_input(CLI::App& command, std::string& input) {
   return command.add_option("INPUT", input, "CAD file: .step .stp .p21 .iges .igs .brep")->required()->type_name("");
 }
 
+void add_progress(CLI::App& command) {
+  CLI::Option* always =
+      command.add_flag("--progress")->description("Progress on stderr, even where that is no terminal");
+  command.add_flag("--no-progress")->description("No progress on stderr")->excludes(always);
+}
+
+ProgressWish progress_wish(const CLI::App& command) {
+  if (command.count("--progress") > 0) return ProgressWish::Always;
+  return command.count("--no-progress") > 0 ? ProgressWish::Never : ProgressWish::WhereTerminal;
+}
+
 void add_info(CLI::App& app, InfoArguments& arguments) {
   CLI::App* command = app.add_subcommand("info", "Print what is in a CAD file, one row a face");
   add_input(*command, arguments.input);
@@ -90,9 +101,7 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
       ->type_name("N");
   command->add_option("--report", arguments.report, "Write what was done, face by face, as JSON")
       ->type_name("FILE.json");
-  CLI::Option* always =
-      command->add_flag("--progress")->description("Progress on stderr, even where that is no terminal");
-  command->add_flag("--no-progress")->description("No progress on stderr")->excludes(always);
+  add_progress(*command);
   command->add_flag("--ascii", arguments.ascii, "Write .stl as text");
   command->add_flag("--strict", arguments.strict, "Write nothing unless every face was meshed");
 }
@@ -116,6 +125,7 @@ void add_voronoi(CLI::App& app, VoronoiArguments& arguments, std::string& face) 
       ->type_name("S");
   command->add_flag("--snap", arguments.snap, "Move sites in space onto the face, however far they are")->needs(sites);
   command->add_flag("--certify", arguments.certify, "Prove the diagram, or say what is wrong with it");
+  add_progress(*command);
   sites->excludes(count)->excludes(spacing);
   count->excludes(spacing);
 }
@@ -159,8 +169,7 @@ CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI
   check_endings(arguments.outputs, kMeshEndings);
   if (command.count("--report") > 0) check_endings({arguments.report}, kReportEndings);
   if (command.count("--faces") > 0) arguments.faces = parse_face_list(faces);
-  if (command.count("--progress") > 0) arguments.progress = ProgressWish::Always;
-  if (command.count("--no-progress") > 0) arguments.progress = ProgressWish::Never;
+  arguments.progress = progress_wish(command);
   if (arguments.min_size > arguments.size) {
     throw Error(ErrorCode::Usage,
                 fmt::format("--min-size {} is above --size {}; lower it", arguments.min_size, arguments.size));
@@ -171,6 +180,7 @@ CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI
 CommandLine checked(VoronoiArguments arguments, const std::string& face, const CLI::App& command) {
   check_endings(arguments.outputs, kVoronoiEndings);
   arguments.face = face_of(face, command);
+  arguments.progress = progress_wish(command);
   if (arguments.sites.empty() && arguments.count == 0 && arguments.spacing == 0.0) {
     throw Error(ErrorCode::Usage, "voronoi needs sites; give --sites FILE, --count N or --spacing LENGTH");
   }

@@ -44,6 +44,7 @@ struct VoronoiArguments {
   std::uint64_t seed = 0;
   bool snap = false;     ///< sites off the face are moved onto it
   bool certify = false;  ///< check the star certificate on the finished diagram
+  ProgressWish progress = ProgressWish::WhereTerminal;
 };
 
 struct DistanceArguments {

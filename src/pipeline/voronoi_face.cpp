@@ -86,6 +86,7 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   check_sites(domain, sites, tolerance);
   VoronoiOptions options;
   options.tolerance = request.tolerance;
+  options.progress = request.progress;
   result.diagram = build_diagram(domain, sites, options);
   check_areas(domain, result.face_area, result.diagram);
   result.dual = dual_of(domain.surface(), result.diagram, request.raster ? DualPaths::Drawn : DualPaths::None);

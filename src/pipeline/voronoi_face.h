@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -25,7 +26,8 @@ struct VoronoiRequest {
   bool snap = false;       ///< take a place in space that is off the face to the nearest point of it
   double tolerance = 0.0;  ///< see VoronoiOptions
   bool certify = false;    ///< fill VoronoiResult::certificate
-  bool raster = false;     ///< fill VoronoiResult::raster and the paths of the dual, for a picture
+  std::function<bool(int done, int total)> progress;  ///< see VoronoiOptions
+  bool raster = false;  ///< fill VoronoiResult::raster and the paths of the dual, for a picture
 };
 
 struct VoronoiResult {

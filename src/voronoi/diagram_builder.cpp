@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "voronoi/border_scan.h"
 #include "voronoi/cell_areas.h"
@@ -31,7 +33,8 @@ constexpr double kOnEdge = 0.3;
 
 class DiagramBuilder {
  public:
-  DiagramBuilder(const FaceDomain& domain, const std::vector<Uv>& sites, double tolerance)
+  DiagramBuilder(const FaceDomain& domain, const std::vector<Uv>& sites, double tolerance,
+                 std::function<bool(int, int)> progress)
       : domain_(domain),
         places_(sites),
         rays_(domain.surface(), places_),
@@ -39,20 +42,24 @@ class DiagramBuilder {
         border_(domain),
         tracer_(domain, border_, rays_, sites_, tolerance),
         table_(domain, kMerge * face_size(domain)),
-        of_site_(sites.size()) {
+        of_site_(sites.size()),
+        progress_(std::move(progress)) {
     diagram_.tolerance = tolerance;
   }
 
   /// What of a part's diagram is one of all sites too.
   void keep(const PartDiagram& part);
 
+  bool stopped() const { return stopped_; }
+
   VoronoiDiagram build() {
     for (Uv p : places_) diagram_.sites.push_back({domain_.to_principal(p), domain_.surface().position(p)});
     if (!places_.empty()) {
       for (int cycle = 0; cycle < border_.cycle_count(); ++cycle) start_on_border(cycle);
       trace_open_spokes();
-      for (int site = 0; site < rays_.count(); ++site) start_at_site(site);
+      for (int site = 0; site < rays_.count() && !stopped_; ++site) start_at_site(site);
       warn_of_open_spokes();
+      if (stopped_) diagram_.warnings.push_back({"unresolved", {}, diagram_.sites[0].uv, "the work was stopped"});
     }
     write_vertices_and_edges();
     const auto cycle_owner = [this](int cycle) {
@@ -81,6 +88,7 @@ class DiagramBuilder {
   void open_spokes_of(int vertex);
   std::optional<SpokeRef> arrive(const TracedEdge& edge);
   void add(std::vector<BisectorPoint> points, SpokeRef start, SpokeRef end);
+  void reach(int site, int edge);
   void remove(int edge);
   bool covered(const BisectorPoint& m) const;
   bool lies_on(const Edge& edge, const BisectorPoint& m) const;
@@ -99,6 +107,9 @@ class DiagramBuilder {
   VertexTable table_;
   std::vector<Edge> edges_;
   std::vector<std::vector<int>> of_site_;  ///< edges of each cell
+  std::function<bool(int, int)> progress_;
+  int reached_ = 0;  ///< cells with an edge
+  bool stopped_ = false;
   std::deque<SpokeRef> open_;
   std::map<SpokeRef, int> trials_;
   VoronoiDiagram diagram_;
@@ -246,7 +257,7 @@ void DiagramBuilder::open_spokes_of(int vertex) {
 }
 
 void DiagramBuilder::trace_open_spokes() {
-  while (!open_.empty()) {
+  while (!open_.empty() && !stopped_) {
     const SpokeRef spoke = open_.front();
     open_.pop_front();
     if (!table_.taken(spoke) && trials_[spoke]++ < kMostTrials) trace_spoke(spoke);
@@ -297,9 +308,17 @@ void DiagramBuilder::add(std::vector<BisectorPoint> points, SpokeRef start, Spok
     table_.take(start, {id, false});
     table_.take(end, {id, true});
   }
-  of_site_[edge.points.front().left.site].push_back(id);
-  of_site_[edge.points.front().right.site].push_back(id);
+  reach(edge.points.front().left.site, id);
+  reach(edge.points.front().right.site, id);
   edges_.push_back(std::move(edge));
+}
+
+void DiagramBuilder::reach(int site, int edge) {
+  if (of_site_[site].empty()) {
+    ++reached_;
+    stopped_ = stopped_ || (progress_ && !progress_(reached_, rays_.count()));
+  }
+  of_site_[site].push_back(edge);
 }
 
 void DiagramBuilder::remove(int id) {
@@ -394,10 +413,10 @@ VoronoiDiagram build_diagram(const FaceDomain& domain, const std::vector<Uv>& si
 VoronoiDiagram merge_diagrams(const FaceDomain& domain, const std::vector<Uv>& sites,
                               const std::vector<PartDiagram>& parts, const VoronoiOptions& options) {
   const double tolerance = options.tolerance > 0.0 ? options.tolerance : kDefaultTolerance * face_size(domain);
-  DiagramBuilder builder(domain, sites, tolerance);
+  DiagramBuilder builder(domain, sites, tolerance, options.progress);
   for (const PartDiagram& part : parts) builder.keep(part);
   VoronoiDiagram diagram = builder.build();
-  if (!options.measure) return diagram;
+  if (!options.measure || builder.stopped()) return diagram;
   measure_cells(domain, diagram);
   recompute_residuals(domain.surface(), diagram);
   warn_of_paths_that_leave(domain, diagram);

@@ -1,6 +1,7 @@
 // From sites on a face to the vertices and edges of their geodesic Voronoi diagram.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "brep/face_domain.h"
@@ -13,6 +14,9 @@ struct VoronoiOptions {
   double tolerance = 0.0;
   /// Whether to measure the finished diagram: areas, residuals, paths that leave the face.
   bool measure = true;
+  /// Called with the number of cells that the edges have reached, and that of the sites. Returning false stops the
+  /// work: what is missing is named by warnings "unresolved", and nothing is measured.
+  std::function<bool(int done, int total)> progress;
 };
 
 /// Part of the face's diagonal in space.

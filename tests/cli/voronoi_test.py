@@ -1,10 +1,12 @@
 """geovor voronoi: the diagram file, held against laws that every diagram obeys."""
 
 import math
+import signal
+import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from program import DONE, LEAVES_FACE, ProgramTest, sample
+from program import DONE, INTERRUPTED, LEAVES_FACE, PROGRAM, ProgramTest, sample
 
 
 def distance(a, b):
@@ -163,6 +165,26 @@ class Voronoi(ProgramTest):
         document = self.diagram("paraboloid.step", "--count", 9, "--seed", 2)
         for site in document["sites"]:
             self.assertLessEqual(max(map(abs, site["uv"])), 1.0)
+
+
+class VoronoiProgress(ProgramTest):
+    def test_it_counts_the_cells_where_asked(self):
+        done = self.run_program("voronoi", sample("sphere.step"), "--count", 5, "-o", "out.json", "--progress")
+        self.assertEqual(done.returncode, DONE)
+        self.assertEqual(done.stderr.splitlines(), [f"geovor: cells reached {n}/5" for n in range(1, 6)])
+
+    def test_an_interrupt_stops_soon_and_leaves_nothing(self):
+        # The lines of so many cells fill the pipe, so that the program can't be ready before the signal comes.
+        rows = [f"{-2.9 + 5.8 * i / 100!r},{-2.9 + 5.8 * k / 100!r}\n" for i in range(100) for k in range(100)]
+        self.write("sites.csv", "u,v\n" + "".join(rows))
+        program = subprocess.Popen([PROGRAM, "voronoi", sample("flat.step"), "--sites", "sites.csv", "-o", "out.json",
+                                    "-o", "out.step", "--progress"], cwd=self.folder, stderr=subprocess.PIPE,
+                                   stdout=subprocess.PIPE, text=True)
+        self.assertIn("cells reached 1/10000", program.stderr.readline())
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=10)
+        self.assertEqual(program.returncode, INTERRUPTED)
+        self.assertEqual(self.files(), ["sites.csv"])
 
 
 if __name__ == "__main__":

@@ -141,5 +141,24 @@ TEST(PlaneDiagram, PointsOutOfPlaceWhereAHoleCutsThePaths) {
                           [](const DiagramWarning& w) { return w.kind == "path_leaves_face"; }));
 }
 
+TEST(PlaneDiagram, TellsOfEachCellAndStopsWhenToldTo) {
+  const TestFace face = plane_square();
+  const FaceDomain domain = face.domain();
+  const auto sites = random_sites(domain, 30, 5);
+  std::vector<int> told;
+  VoronoiOptions options;
+  options.progress = [&](int done, int total) {
+    EXPECT_EQ(total, 30);
+    told.push_back(done);
+    return done < 12;
+  };
+  const VoronoiDiagram stopped = build_diagram(domain, sites, options);
+  ASSERT_EQ(told.size(), 12u);
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(told[i], i + 1);
+  const auto said = [](const DiagramWarning& w) { return w.kind == "unresolved" && w.text == "the work was stopped"; };
+  EXPECT_EQ(std::count_if(stopped.warnings.begin(), stopped.warnings.end(), said), 1);
+  EXPECT_LT(stopped.edges.size(), build_diagram(domain, sites).edges.size());
+}
+
 }  // namespace
 }  // namespace geovor::testing
