@@ -25,29 +25,49 @@ constexpr double kFullTurn = 2.0 * std::numbers::pi;
 // A function changes between samples by no more than this part of what it changes from sample to sample.
 constexpr double kAllowance = 0.5;
 
+// A derivative this part of what it might be, or less, is zero to rounding.
+constexpr double kZero = 1e-12;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace
+
+// A side where the derivative across it vanishes is no point: the surface may be as good there as anywhere. What the
+// parameters do not tell is NaN, to be told by the samples beside; only paths across the side have no bound.
+SurfaceSurvey::Sample SurfaceSurvey::where_parameters_end(const UvBox& domain, Uv p, const SurfaceJet& j) {
+  const double width = domain.u.length(), height = domain.v.length();
+  const double u = width * j.Su.norm(), v = height * j.Sv.norm();
+  const double scale = std::max({u, v, width * width * j.Suu.norm(), height * height * j.Svv.norm()});
+  const auto at_end = [](Interval x, double at) {
+    return std::min(std::abs(at - x.lo), std::abs(at - x.hi)) <= kZero * x.length();
+  };
+  const bool across_u = u <= kZero * scale && at_end(domain.u, p.u);
+  const bool across_v = v <= kZero * scale && at_end(domain.v, p.v);
+  if (!across_u && !across_v) return {kInf, kInf, kInf, kInf, 0.0, 0.0};
+  return {across_u ? kInf : kUnknown, across_v ? kInf : kUnknown, kUnknown, kUnknown, 0.0, 0.0};
+}
 
 SurfaceSurvey::Sample SurfaceSurvey::sample(const Surface& surface, Uv p) {
   const SurfaceJet j = surface.jet(p);
   const double W = j.Su.cross(j.Sv).norm();
   const Curvatures c = curvatures(j);
-  if (!(W > 0.0) || !std::isfinite(c.gauss)) return {kInf, kInf, kInf, kInf, 0.0, 0.0};
   const double u = j.Su.norm(), v = j.Sv.norm();
+  if (!(W > 0.0) || !std::isfinite(c.gauss)) return where_parameters_end(surface.domain(), p, j);
   return {v / W, u / W, c.gauss, W, c.largest() * u, c.largest() * v};
 }
 
-// An upper bound from the nine samples of a cell.
+// An upper bound from those of the nine samples of a cell that tell something.
 template <class Value>
 double SurfaceSurvey::bound(const std::vector<Sample>& samples, int i, int j, Value value) const {
   double lo = kInf, hi = -kInf;
   for (int b = 0; b <= 2; ++b)
     for (int a = 0; a <= 2; ++a) {
       const double x = value(samples[(2 * j + b) * (2 * u_.cells + 1) + 2 * i + a]);
-      if (!std::isfinite(x)) return kInf;
+      if (std::isnan(x)) continue;
+      if (std::isinf(x)) return kInf;
       lo = std::min(lo, x);
       hi = std::max(hi, x);
     }
-  return hi + kAllowance * (hi - lo);
+  return lo <= hi ? hi + kAllowance * (hi - lo) : kInf;
 }
 
 double SurfaceSurvey::Axis::cell() const { return range.length() / cells; }
@@ -108,7 +128,9 @@ std::vector<SurfaceSurvey::Sample> SurfaceSurvey::take(const Surface& surface) c
 }
 
 void SurfaceSurvey::add_cell(const std::vector<Sample>& samples, int i, int j) {
-  const auto positive = [](const Sample& s) { return std::max(s.gauss, 0.0) * s.density; };
+  const auto positive = [](const Sample& s) {
+    return std::isnan(s.gauss) ? kUnknown : std::max(s.gauss, 0.0) * s.density;
+  };
   cells_.push_back({bound(samples, i, j, [](const Sample& s) { return s.rate_u; }),
                     bound(samples, i, j, [](const Sample& s) { return s.rate_v; }),
                     bound(samples, i, j, [](const Sample& s) { return s.gauss; }),
@@ -135,7 +157,7 @@ std::optional<SurfaceSurvey::Region> SurfaceSurvey::ball(Uv centre, double radiu
     if (radius * rate_u <= r_u && radius * rate_v <= r_v) return region;
     r_u = std::max(r_u, radius * rate_u);
     r_v = std::max(r_v, radius * rate_v);
-    if (!(r_u < kInf && r_v < kInf) || u_.wraps(r_u) || v_.wraps(r_v)) return std::nullopt;
+    if (u_.wraps(r_u) || v_.wraps(r_v)) return std::nullopt;
     if (u_.leaves(centre.u, r_u) || v_.leaves(centre.v, r_v)) return std::nullopt;
   }
   return std::nullopt;

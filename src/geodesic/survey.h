@@ -56,6 +56,7 @@ class SurfaceSurvey {
     int last(Interval reach) const;
   };
   static Sample sample(const Surface& surface, Uv p);
+  static Sample where_parameters_end(const UvBox& domain, Uv p, const SurfaceJet& j);
   std::vector<Sample> take(const Surface& surface) const;
   template <class Value>
   double bound(const std::vector<Sample>& samples, int i, int j, Value value) const;

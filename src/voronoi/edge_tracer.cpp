@@ -59,6 +59,10 @@ constexpr int kDeepest = 10;
 // Chords of one cubic: as many make what sags by a part of the face's size as fine as the default tolerance.
 constexpr double kMostPieces = 256;
 
+// The parameters of a side where the metric vanishes are farther off than the metric says: with the third power of them
+// by a factor of three, with the n-th by n.
+constexpr double kBeyondSide = 10.0;
+
 // Chords are shorter than the way, and the border is measured to first order only.
 constexpr double kBorderMargin = 2.0;
 
@@ -192,6 +196,7 @@ EdgeTracer::Step EdgeTracer::advance(Walk& walk) const {
     if (outcome != Step::Failed) return outcome;
   }
   const auto next = predict(walk, h);
+  if (!next && end_before_side(walk, h)) return Step::Ended;
   if (!next || chord(cur, *next) > 1.5 * h) return Step::Failed;
   const double bend = turn(cur, *next);
   if (!(bend < kMostTurn)) return Step::Failed;
@@ -438,6 +443,22 @@ bool EdgeTracer::end_on_border(Walk& walk, const BisectorPoint& next, const Cros
   walk.edge.place = place;
   walk.edge.end = TraceEnd::Border;
   return true;
+}
+
+// Where parameters lose the tangent plane on the border no ray can be followed beyond it, and a step that would end
+// there has no point. Straight on in the parameter plane lies the border near enough for a start.
+bool EdgeTracer::end_before_side(Walk& walk, double h) const {
+  const BisectorPoint cur = walk.current();
+  if (border_.cycle_count() == 0 || !border_.near_border(cur.position(), h)) return false;
+  const SurfaceJet j = rays_.surface().jet(cur.left.uv);
+  const Uv from = domain_.to_principal(cur.left.uv);
+  const UvVec step = tangent_components(j, kBeyondSide * h * cur.tangent());
+  if (!is_finite(step)) return false;
+  const auto crossing = border_.first_crossing(from, from + step, walk.skip());
+  if (!crossing) return false;
+  BisectorPoint next = cur;
+  next.left.x = next.right.x = cur.position() + h * cur.tangent();
+  return end_on_border(walk, next, {cur, cur, *crossing});
 }
 
 // Newton's method for d_left = d_right along the border.

@@ -59,6 +59,7 @@ class EdgeTracer {
   Step take_vertex(Walk& walk, const Vertex& vertex) const;
   Step take_point(Walk& walk, const BisectorPoint& next) const;
   bool end_on_border(Walk& walk, const BisectorPoint& next, const Crossing& crossing) const;
+  bool end_before_side(Walk& walk, double h) const;
   bool close(Walk& walk, double h) const;
   bool end_freely(Walk& walk) const;
   double longest_step(const BisectorPoint& m) const;

@@ -7,6 +7,7 @@
 
 #include "geodesic/closed_form_path.h"
 #include "geodesic/closed_forms.h"
+#include "geodesic/extended_state.h"
 #include "geodesic/integrator.h"
 #include "surface/forms.h"
 #include "surface/tangent_frame.h"
@@ -99,9 +100,7 @@ RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to, const Curvature
   return ray;
 }
 
-}  // namespace
-
-RayEnd trace_ray(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature, RayParts parts) {
+RayEnd traced(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature, RayParts parts) {
   RayEnd ray;
   ray.polar = to;
   if (!(to.s > 0.0) || !std::isfinite(to.s) || !std::isfinite(to.t)) return ray;
@@ -128,6 +127,33 @@ RayEnd trace_ray(const Surface& surface, Uv site, Polar to, const CurvatureMap& 
     pieces *= excess > 16.0 ? 4 : 2;  // the difference goes like the fourth power of the pieces
   }
   return ray;
+}
+
+/// From two ends one h apart to what lies as far again ahead, to second order.
+RayEnd extrapolated(const RayEnd& a, const RayEnd& b, double h, Polar to) {
+  RayEnd on = b;
+  on.polar = to;
+  on.x += h * b.T + 0.5 * h * (b.T - a.T);
+  on.T = (2.0 * b.T - a.T).normalized();
+  on.N = 2.0 * b.N - a.N;
+  on.N = (on.N - on.N.dot(on.T) * on.T).normalized();
+  on.y += h * b.dy + 0.5 * h * (b.dy - a.dy);
+  on.dy += b.dy - a.dy;
+  on.sector += h * b.y + 0.5 * h * h * b.dy;
+  return on;
+}
+
+}  // namespace
+
+// Onto a side where the parameters have no tangent plane the integrator comes near only.
+RayEnd trace_ray(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature, RayParts parts) {
+  const RayEnd ray = traced(surface, site, to, curvature, parts);
+  if (ray.found || !(to.s > 0.0)) return ray;
+  const double h = kBeforeSide * to.s;
+  const RayEnd b = traced(surface, site, {to.s - h, to.t}, curvature, parts);
+  if (!b.found) return ray;
+  const RayEnd a = traced(surface, site, {to.s - 2.0 * h, to.t}, curvature, RayParts::EndAlone);
+  return a.found ? extrapolated(a, b, h, to) : ray;
 }
 
 }  // namespace geovor

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "geodesic/closed_forms.h"
+#include "geodesic/extended_state.h"
+#include "geodesic/integrator.h"
 #include "surface/forms.h"
 #include "voronoi/shot_ladder.h"
 
@@ -32,6 +34,29 @@ constexpr int kMostShots = 12;
 // The longest step of the aim: radians, and a part of the length.
 constexpr double kMostTurn = 0.5;
 constexpr double kMostStretch = 0.5;
+
+// A ray that is aimed beyond a side where the parameters lose the tangent plane is extended by no more than this part
+// of its length, which an iteration that comes to rest on the side may pass through.
+constexpr double kMostExtension = 0.3;
+
+// Near such a side the direction of a ray knows what its place does, divided by the way to the side.
+constexpr double kOntoSide = 1e-11;
+
+// Where connect() finds no way to such a side, a place so far inside it, in parts of the domain's extents, is a start.
+constexpr double kInside = 0.02;
+
+/// Nearer to such a side than the first the normal is noise; up to the second, rays are aimed as at the side itself, as
+/// rough ones might run over it.
+constexpr double kNoPlane = 1e-10;
+constexpr double kBesideSide = 1e-2;
+bool has_plane(const SurfaceJet& j, double least = kNoPlane) {
+  return j.Su.cross(j.Sv).norm() > least * std::max(j.Su.squaredNorm(), j.Sv.squaredNorm());
+}
+
+/// The middle of the domain pulls the place off the side that it lies on.
+Uv a_little_inside(const UvBox& domain, Uv m) {
+  return m + kInside * (Uv{domain.u.middle(), domain.v.middle()} - m);
+}
 
 /// From the end of the ray to the target, see moved().
 Polar second_order_step(const SiteRay& ray, const Xyz& target) {
@@ -79,8 +104,32 @@ std::optional<SiteRay> SiteRays::to(int site, Uv m, std::optional<Polar> guess) 
   ConnectOptions options;
   options.tolerance = kRoughly;
   const Connection c = connect(surface_, sites_[site], m, guess, options);
-  if (c.status != ConnectStatus::Converged) return std::nullopt;
-  return shoot_near(site, m, {c.length, c.angle}, kRayTolerance, kRoughly);
+  if (c.status == ConnectStatus::Converged) return shoot_near(site, m, {c.length, c.angle}, kRayTolerance, kRoughly);
+  if (has_plane(surface_.jet(m))) return std::nullopt;
+  const Connection beside = connect(surface_, sites_[site], a_little_inside(surface_.domain(), m), guess, options);
+  if (beside.status != ConnectStatus::Converged) return std::nullopt;
+  return shoot_near(site, m, {beside.length, beside.angle}, kRayTolerance);
+}
+
+// A place on a side with Su = 0 across it has no direction in the parameter plane, but one in space.
+std::optional<RayShot> SiteRays::shoot_onto_side(int site, Polar polar, double tolerance) const {
+  double length = (1.0 - kBeforeSide) * polar.s;
+  auto shot = shoot(site, {length, polar.t}, tolerance);
+  if (!shot) {
+    TraceOptions options;
+    options.stop_at_domain = false;
+    options.tolerance = tolerance;
+    const Xyz T = tangent_frame(surface_, sites_[site]).at_angle(polar.t);
+    GeodesicIntegrator path(surface_, sites_[site], T, polar.s, options);
+    if (path.advance(polar.s) != TraceStatus::DegenerateMetric) return std::nullopt;
+    length = path.covered() - kBeforeSide * polar.s;
+    if (polar.s - length <= kMostExtension * polar.s) shot = shoot(site, {length, polar.t}, tolerance);
+  }
+  if (!shot) return std::nullopt;
+  SiteRay& ray = shot->ray;
+  const SpaceState end = extended({ray.x, ray.T, ray.T.cross(ray.N), ray.y, ray.dy, ray.uv}, shot->jet, polar.s - length);
+  ray = {site, polar, ray.uv, end.S, end.tangent, end.normal.cross(end.tangent), end.y, end.dy};
+  return shot;
 }
 
 std::optional<SiteRay> SiteRays::roughly_to(int site, Uv m, std::optional<Polar> guess) const {
@@ -92,10 +141,12 @@ std::optional<SiteRay> SiteRays::roughly_to(int site, Uv m, std::optional<Polar>
 // until the miss is so small that one more step makes it good.
 std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, double tolerance, double miss_of_guess) const {
   const SurfaceJet target = surface_.jet(m);
+  const bool on_side = !closed_form_ && !has_plane(target, kBesideSide);
   const ShotLadder ladder(curvature() * aim.s, tolerance);
   double last = std::numeric_limits<double>::infinity(), asked = ladder.tolerance_for(miss_of_guess);
   for (int i = 0; i < kMostShots && aim.s > 0.0; ++i) {
-    const auto shot = shoot(site, aim, asked);
+    if (on_side) asked = std::min(asked, kOntoSide);
+    const auto shot = on_side ? shoot_onto_side(site, aim, asked) : shoot(site, aim, asked);
     if (!shot) return std::nullopt;
     const SiteRay& ray = shot->ray;
     const double miss = (target.S - ray.x).norm();
@@ -113,7 +164,7 @@ std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, double to
 
 SiteRay moved(const SiteRay& ray, Uv m, const SurfaceJet& j) {
   const Polar step = second_order_step(ray, j.S);
-  const Xyz normal = unit_normal(j), n = normal.allFinite() ? normal : ray.T.cross(ray.N);  // none at a pole
+  const Xyz n = has_plane(j) ? unit_normal(j) : Xyz(ray.T.cross(ray.N));  // none at a pole
   const Xyz T = ray.T + step.t * ray.dy * ray.N;
   SiteRay there = ray;
   there.polar = {ray.polar.s + step.s, ray.polar.t + step.t};

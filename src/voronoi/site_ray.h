@@ -61,6 +61,7 @@ class SiteRays {
  private:
   std::optional<SiteRay> shoot_near(int site, Uv m, Polar aim, double tolerance,
                                     double miss_of_guess = kMissOfGuess) const;
+  std::optional<RayShot> shoot_onto_side(int site, Polar polar, double tolerance) const;
 
   /// How far off, as a part of the length, a guess from a neighbouring point is as a rule.
   static constexpr double kMissOfGuess = 0.05;
