@@ -263,14 +263,16 @@ void Walker::go_to_free_end(const Station& a, const Station& b) {
   }
 }
 
-/// A place between the points, corrected with rays traced anew each time.
+/// A place between the points, corrected with rays traced anew each time. Two rays that meet beside the edge have
+/// different lengths.
 void Walker::look_between(const Station& a, const Station& b) {
   const Xyz along = (b.rays[0].x - a.rays[0].x).normalized();
   const double h = arc_length(a, b);
   if (!a.regular || !b.regular || !(h > 0.0)) return;
   Station m = middle(a, b, h);
   for (int i = 0; i < kMostCorrections && found(m); ++i) {
-    const double apart = (m.rays[0].x - m.rays[1].x).norm() / m.radius();
+    const double lag = std::abs(m.rays[0].polar.s - m.rays[1].polar.s);
+    const double apart = std::max((m.rays[0].x - m.rays[1].x).norm(), lag) / m.radius();
     if (apart <= kSettled || !correct(m, along, h)) break;
     m = at(m.rays[0].polar, m.rays[1].polar);
   }
