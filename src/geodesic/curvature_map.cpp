@@ -19,6 +19,13 @@ Interval finite_part(Interval i) {
   return {std::isfinite(i.hi) ? i.hi - 1.0 : 0.0, std::isfinite(i.hi) ? i.hi : 1.0};
 }
 
+// See near_domain(); in parts of the extents.
+constexpr double kBeyond = 0.5;
+Interval widened(Interval i) {
+  const double more = std::isfinite(i.length()) ? kBeyond * i.length() : 0.0;
+  return {i.lo - more, i.hi + more};
+}
+
 // Legs as parts of the radius; those of one ray, where it is curved so much that its steps are short anyway.
 constexpr double kLongestLeg = 0.25;
 constexpr double kMostLegs = 1e3;
@@ -35,6 +42,7 @@ struct Place {
 
 CurvatureMap::CurvatureMap(const Surface& surface)
     : box_{finite_part(surface.domain().u), finite_part(surface.domain().v)},
+      rim_{widened(surface.domain().u), widened(surface.domain().v)},
       u_periodic_(surface.u_period().has_value()),
       v_periodic_(surface.v_period().has_value()) {
   std::vector<Place> places;
@@ -58,6 +66,10 @@ CurvatureMap::CurvatureMap(const Surface& surface)
     }
     radii_.push_back(radius);
   }
+}
+
+bool CurvatureMap::near_domain(Uv p) const {
+  return (u_periodic_ || rim_.u.contains(p.u)) && (v_periodic_ || rim_.v.contains(p.v));
 }
 
 int CurvatureMap::cell(double x, Interval range, bool periodic) const {

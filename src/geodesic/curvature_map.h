@@ -22,6 +22,10 @@ class CurvatureMap {
   /// and width 0.5 rays of length 0.6 were 4e-11 off. Legs that are a part of radius() end before.
   double leg_end(Uv p, double covered, double s) const;
 
+  /// Whether p is not far beyond the domain: within half of its extents. Farther out, continued polynomials are no
+  /// guide to anything, and a path may take thousands of steps.
+  bool near_domain(Uv p) const;
+
   /// No place that is nearer to p than four times this has a smaller radius of curvature than this: the minimum over
   /// all places x of max(|x - p| / 4, radius at x). How a bump's curvature fades tells how wide it is: far from all
   /// that is sharp, and only there, things change slowly. Infinite where the surface is flat.
@@ -30,7 +34,7 @@ class CurvatureMap {
  private:
   int cell(double x, Interval range, bool periodic) const;
 
-  UvBox box_;
+  UvBox box_, rim_;
   bool u_periodic_, v_periodic_;
   double largest_ = 0.0;
   std::vector<double> radii_;  ///< by cell, rows of u

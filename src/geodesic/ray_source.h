@@ -26,7 +26,8 @@ class RaySource {
   /// `map`: what is known of the surface elsewhere; it outlives the source.
   explicit RaySource(const Surface& surface, Uv p, const CurvatureMap* map = nullptr);
 
-  /// O_p(s,t) within what trace.h promises. From options.tolerance = kLoosest on a short ray is one Runge-Kutta step of
+  /// O_p(s,t) within what trace.h promises; a path that gets far beyond the domain (CurvatureMap::near_domain) has left
+  /// it, where a map is given. From options.tolerance = kLoosest on a short ray is one Runge-Kutta step of
   /// order 4 without an estimate of its error, meant for the first steps of an iteration whose last one is exact.
   /// REQUIRES: s is finite and not negative
   TracedRay end(double s, double t, const TraceOptions& options) const;

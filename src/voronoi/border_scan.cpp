@@ -118,7 +118,8 @@ class CycleScan {
     const SiteRay& owner = l.owner();
     double step = kStep * owner.polar.s;
     if (!sites_.unique_to(owner.site, owner.polar.s + 2.0 * step)) {
-      step = std::min({step, kStepAmongBranches * std::abs(owner.y), kStepAmongBranches / rays_.curvature()});
+      step = std::min(
+          {step, kStepAmongBranches * std::abs(owner.y), kStepAmongBranches * rays_.curvature_map().radius(owner.uv)});
     }
     return std::max({step, kStepNearSite * apart(owner.site), least_step_});
   }
