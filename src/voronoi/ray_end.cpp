@@ -9,6 +9,7 @@
 #include "geodesic/closed_forms.h"
 #include "geodesic/extended_state.h"
 #include "geodesic/integrator.h"
+#include "geodesic/path_leg.h"
 #include "surface/forms.h"
 #include "surface/tangent_frame.h"
 
@@ -74,24 +75,30 @@ RayEnd end_of(const SpaceState& at, Polar to) {
           std::numeric_limits<double>::quiet_NaN()};
 }
 
-/// The ray with its sector from the integrator's own steps, which are as short as the curvature asks: on each the
-/// integral of the quintic with y, y' and y'' = -K y at both ends (error h^7 y^(6) / 100800). The sector is NaN where K
-/// is (at poles).
+/// The integral of y over a step: of the quintic with y, y' and y'' = -K y at both ends (error h^7 y^(6) / 100800), all
+/// of the step's own piece: across knots K may jump, across creases y' too.
+double integral_of_y(const Surface& surface, const PathLeg& leg) {
+  const Surface& map = leg.chart != nullptr ? *leg.chart : surface;
+  const double K = curvatures(leg.piece.jet(map, {leg.end[0], leg.end[1]})).gauss, h = leg.h;
+  return h / 2.0 * (leg.x[4] + leg.end[4]) + h * h / 10.0 * (leg.x[5] - leg.end[5]) +
+         h * h * h / 120.0 * (leg.slope[5] - K * leg.end[4]);
+}
+
+/// The ray with its sector from the integrator's own steps, which are as short as the curvature asks. The sector is NaN
+/// where K is (at poles).
 RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to, const CurvatureMap& curvature) {
   TraceOptions options;
   options.stop_at_domain = false;
   options.tolerance = kRetraceTolerance;
   GeodesicIntegrator path(surface, site, tangent_frame(surface, site).at_angle(to.t), to.s, options);
-  double covered = 0.0, y = 0.0, dy = 1.0, ddy = 0.0, sum = 0.0;
+  PathRecord steps;
+  path.keep(&steps);
+  double sum = 0.0;
   for (double leg = 0.0; leg < to.s && path.status() == TraceStatus::Converged;) {
     leg = curvature.leg_end(path.state().p, leg, to.s);
     while (path.advance_step(leg)) {
-      const double h = path.covered() - covered;
-      if (!(h > 0.0)) continue;
-      const SpaceState at = path.at();
-      const double ddy_there = -curvatures(path.jet()).gauss * at.y;
-      sum += h / 2.0 * (y + at.y) + h * h / 10.0 * (dy - at.dy) + h * h * h / 120.0 * (ddy + ddy_there);
-      covered = path.covered(), y = at.y, dy = at.dy, ddy = ddy_there;
+      for (const PathLeg& step : steps.legs) sum += integral_of_y(surface, step);
+      steps.legs.clear();
     }
   }
   if (path.status() != TraceStatus::Converged) return {};
@@ -108,8 +115,7 @@ RayEnd traced(const Surface& surface, Uv site, Polar to, const CurvatureMap& cur
     const auto states = states_along(surface, site, to, curvature, 1);
     return states.empty() ? ray : end_of(states.back(), to);
   }
-  // Where the curvature jumps a step's two ends do not tell it.
-  if (!has_closed_form(surface) && surface.continuity() >= 2) {
+  if (!has_closed_form(surface)) {
     const RayEnd by_steps = trace_by_steps(surface, site, to, curvature);
     if (!by_steps.found || std::isfinite(by_steps.sector)) return by_steps;
   }
@@ -121,7 +127,6 @@ RayEnd traced(const Surface& surface, Uv site, Polar to, const CurvatureMap& cur
     ray = end_of(states.back(), to);
     ray.sector = sum.high;
     const double excess = std::abs(sum.high - sum.low) / (kOrdersAgree * std::abs(sum.high));
-    // Across knots the orders don't show: there more pieces must change nothing.
     if (excess <= 1.0 || std::abs(sum.high - last) <= 0.01 * kOrdersAgree * std::abs(sum.high)) break;
     last = sum.high;
     pieces *= excess > 16.0 ? 4 : 2;  // the difference goes like the fourth power of the pieces
