@@ -282,8 +282,14 @@ std::optional<SpokeRef> DiagramBuilder::arrive(const TracedEdge& edge) {
     case TraceEnd::FreeEnd:
       spoke = table_.arrive_at_free_end(last);
       break;
-    case TraceEnd::Closed:
     case TraceEnd::Stuck:
+      // A cut locus that runs into a cone's tip, where there is no tangent plane, ends there as in a conjugate point.
+      if (last.left.site == last.right.site) {
+        warn("cut_locus", last, "the cut locus of this site ends near here; its last piece is not traced");
+        spoke = table_.arrive_at_free_end(last);
+      }
+      break;
+    case TraceEnd::Closed:
       break;
   }
   if (spoke) open_spokes_of(spoke->vertex);

@@ -54,9 +54,7 @@ bool has_plane(const SurfaceJet& j, double least = kNoPlane) {
 }
 
 /// The middle of the domain pulls the place off the side that it lies on.
-Uv a_little_inside(const UvBox& domain, Uv m) {
-  return m + kInside * (Uv{domain.u.middle(), domain.v.middle()} - m);
-}
+Uv a_little_inside(const UvBox& domain, Uv m) { return m + kInside * (Uv{domain.u.middle(), domain.v.middle()} - m); }
 
 /// From the end of the ray to the target, see moved().
 Polar second_order_step(const SiteRay& ray, const Xyz& target) {
@@ -127,7 +125,8 @@ std::optional<RayShot> SiteRays::shoot_onto_side(int site, Polar polar, double t
   }
   if (!shot) return std::nullopt;
   SiteRay& ray = shot->ray;
-  const SpaceState end = extended({ray.x, ray.T, ray.T.cross(ray.N), ray.y, ray.dy, ray.uv}, shot->jet, polar.s - length);
+  const SpaceState end =
+      extended({ray.x, ray.T, ray.T.cross(ray.N), ray.y, ray.dy, ray.uv}, shot->jet, polar.s - length);
   ray = {site, polar, ray.uv, end.S, end.tangent, end.normal.cross(end.tangent), end.y, end.dy};
   return shot;
 }
