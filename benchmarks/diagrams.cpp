@@ -186,7 +186,7 @@ void bench_diagrams() {
   }
   print_table(
       "Voronoi diagrams of random sites on z = sin u cos v, [-3, 3]^2, one thread, all vertices and edges; median of " +
-          std::to_string(kRuns) + " runs; the residual is recomputed by connect()",
+          std::to_string(kRuns) + " runs; the residual comes from rays shot anew",
       rows);
   if (first) beside_a_mesh(random_points(kBox, kMeshSites), *first);
 }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "io/atomic_file.h"
 #include "io/cell_colours.h"
@@ -61,7 +62,7 @@ struct Frame {
     }
     if (!(lower.x() <= upper.x())) return;
     middle = 0.5 * (lower + upper);
-    size = std::max(0.5 * (upper - lower).norm(), 1e-300);
+    size = std::max(0.5 * (upper - lower).norm(), std::numeric_limits<double>::min());  // a point is drawn too
   }
   Eigen::Vector3f operator()(const Xyz& x) const { return ((x - middle) / size).cast<float>(); }
 };
