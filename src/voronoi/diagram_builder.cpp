@@ -40,7 +40,7 @@ class DiagramBuilder {
         rays_(domain.surface(), places_),
         sites_(rays_),
         border_(domain),
-        tracer_(domain, border_, rays_, sites_, tolerance),
+        tracer_(border_, rays_, sites_, tolerance),
         table_(domain, kMerge * face_size(domain)),
         of_site_(sites.size()),
         progress_(std::move(progress)) {

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "surface/forms.h"
 #include "voronoi/foresight.h"
@@ -39,59 +38,23 @@ constexpr double kApproach = 0.3;
 constexpr double kOneGeodesic = 0.03;
 constexpr double kNearlyOneGeodesic = 0.3;
 
-// Between two points of an edge an angle changes by what its slopes at both say, but for this part of it; more means
-// that Newton's method went over to another geodesic of the site. A change too small to tell is none.
-constexpr double kJump = 0.25;
-constexpr double kNoChange = 1e-6;
-
 // See EdgeTracer::predict.
 constexpr double kSmallCorrection = 0.3;
 
 // An edge of more steps than this goes round and round.
 constexpr int kMostSteps = 20000;
 
-// Part of the first chord of an edge that starts on the border in which the start itself would be met.
-constexpr double kOffBorder = 1e-3;
-
-// How often a chord near the border is halved: to a thousandth.
-constexpr int kDeepest = 10;
-
-// Chords of one cubic: as many make what sags by a part of the face's size as fine as the default tolerance.
-constexpr double kMostPieces = 256;
-
-// The parameters of a side where the metric vanishes are farther off than the metric says: with the third power of them
-// by a factor of three, with the n-th by n.
-constexpr double kBeyondSide = 10.0;
-
-// Chords are shorter than the way, and the border is measured to first order only.
-constexpr double kBorderMargin = 2.0;
-
-constexpr int kBorderIterations = 30;
-
-// A vertex this near to the border, as a part of its radius, lies on it.
-constexpr double kOnBorder = 1e-9;
 constexpr int kMostRivalsInTurn = 24;
 
 // Two points nearer than this part of the radius have nothing between them.
 constexpr double kNoRoom = 1e-6;
 
+// The border may be farther off than where a step would have ended, by this factor.
+constexpr double kMostOvershoot = 2.0;
+
 // Beside the start, as a part of the step, and onto it, as a part of the radius.
 constexpr double kBeside = 0.3;
 constexpr double kBackAtStart = 1e-9;
-
-double chord(const BisectorPoint& a, const BisectorPoint& b) { return (b.position() - a.position()).norm(); }
-
-double turn(const BisectorPoint& a, const BisectorPoint& b) {
-  const Xyz s = a.tangent(), t = b.tangent();
-  return std::atan2(s.cross(t).norm(), s.dot(t));
-}
-
-bool is_free_end(const BisectorPoint& m) { return m.left.site == m.right.site && m.left.polar.t == m.right.polar.t; }
-
-/// How far the chord is from the edge: that of a circle.
-double sag_of(const BisectorPoint& a, const BisectorPoint& b) {
-  return is_free_end(a) || is_free_end(b) ? 0.0 : chord(a, b) * turn(a, b) / 8.0;
-}
 
 /// Cubic through (0, f0, d0) and (h0, f1, d1), continued to h0 + h.
 double extrapolate(double f0, double d0, double f1, double d1, double h0, double h) {
@@ -103,38 +66,6 @@ double extrapolate(double f0, double d0, double f1, double d1, double h0, double
 double turned(const SiteRay& ray, const Xyz& step) {
   return ray.polar.t + ray.polar.s / ray.y * std::atan2(ray.N.dot(step), ray.polar.s + ray.T.dot(step));
 }
-
-/// Whether the rays at b are those of a, moved.
-bool goes_on(const BisectorPoint& a, const BisectorPoint& b) {
-  const double h = chord(a, b);
-  const BisectorSlope d = bisector_slope(a), e = bisector_slope(b);
-  const auto smooth = [h](double change, double slope0, double slope1) {
-    const double most = kJump * h * (std::abs(slope0) + std::abs(slope1)) + kNoChange;
-    return std::abs(wrap_angle(change - 0.5 * h * (slope0 + slope1))) <= most;
-  };
-  return smooth(b.left.polar.t - a.left.polar.t, d.left_angle, e.left_angle) &&
-         smooth(b.right.polar.t - a.right.polar.t, d.right_angle, e.right_angle);
-}
-
-/// The cubic of the parameter plane with the edge's directions at two of its points.
-class ParameterCubic {
- public:
-  /// `from`: the copy of a's parameters where it starts.
-  ParameterCubic(const Surface& surface, const BisectorPoint& a, const BisectorPoint& b, Uv from)
-      : from_(from),
-        way_(nearest_copy(surface, a.left.uv, b.left.uv)),
-        leaves_(tangent_components(surface.jet(a.left.uv), chord(a, b) * a.tangent())),
-        arrives_(tangent_components(surface.jet(b.left.uv), chord(a, b) * b.tangent())) {}
-
-  Uv at(double k) const {
-    const double r = 1.0 - k;
-    return from_ + k * k * (3.0 - 2.0 * k) * way_ + k * r * (r * leaves_ + -k * arrives_);
-  }
-
- private:
-  Uv from_;
-  UvVec way_, leaves_, arrives_;
-};
 
 bool near_conjugate_point(const BisectorPoint& m, double between) {
   return m.left.site == m.right.site && std::abs(wrap_angle(m.left.polar.t - m.right.polar.t)) < between;
@@ -154,8 +85,7 @@ struct EdgeTracer::Walk {
   double step = 0.0;
   bool starts_on_border = false;
   const BisectorPoint& current() const { return edge.points.back(); }
-  /// Part of the next chord in which the border is not looked for.
-  double skip() const { return starts_on_border && edge.points.size() == 1 ? kOffBorder : 0.0; }
+  bool on_border() const { return starts_on_border && edge.points.size() == 1; }
 };
 
 double EdgeTracer::longest_step(const BisectorPoint& m) const {
@@ -196,7 +126,10 @@ EdgeTracer::Step EdgeTracer::advance(Walk& walk) const {
     if (outcome != Step::Failed) return outcome;
   }
   const auto next = predict(walk, h);
-  if (!next && end_before_side(walk, h)) return Step::Ended;
+  if (!next) {
+    const auto side = on_border_.straight_on(cur, h, walk.on_border());
+    if (side && end_on_border(walk, h, *side)) return Step::Ended;
+  }
   if (!next || chord(cur, *next) > 1.5 * h) return Step::Failed;
   const double bend = turn(cur, *next);
   if (!(bend < kMostTurn)) return Step::Failed;
@@ -230,25 +163,6 @@ std::optional<BisectorPoint> EdgeTracer::predict(const Walk& walk, double h) con
   }
   const Xyz tangent = cur.tangent();
   return correct_bisector(rays_, cur.left.site, cur.right.site, guess, {tangent, tangent.dot(cur.position()) + h});
-}
-
-// The cubic that has the slopes of system (13) at both ends, half way between them.
-std::optional<BisectorPoint> EdgeTracer::halfway(const BisectorPoint& a, const BisectorPoint& b) const {
-  const Xyz way = b.position() - a.position();
-  const double h = way.norm();
-  const BisectorSlope d = bisector_slope(a), e = bisector_slope(b);
-  const auto middle = [h](double f0, double d0, double change, double d1) {
-    return f0 + 0.5 * change + h / 8.0 * (d0 - d1);
-  };
-  const BisectorCoordinates guess = {
-      middle(a.radius(), d.radius, b.radius() - a.radius(), e.radius),
-      middle(a.left.polar.t, d.left_angle, wrap_angle(b.left.polar.t - a.left.polar.t), e.left_angle),
-      middle(a.right.polar.t, d.right_angle, wrap_angle(b.right.polar.t - a.right.polar.t), e.right_angle)};
-  const Xyz normal = way / h;
-  const auto m = correct_bisector(rays_, a.left.site, a.right.site, guess,
-                                  {normal, normal.dot(0.5 * (a.position() + b.position()))});
-  if (!m || chord(a, *m) > h || chord(*m, b) > h) return std::nullopt;
-  return m;
 }
 
 // The sites' own rays turn about their ends as in the plane; the third site's ray is aimed along the straight line.
@@ -307,7 +221,7 @@ EdgeTracer::Step EdgeTracer::take_vertex(Walk& walk, const Vertex& found) const 
     const double way = chord(cur, vertex.point);
     std::optional<BisectorPoint> middle;
     if (way > kNoRoom * cur.radius()) {
-      middle = halfway(cur, vertex.point);
+      middle = halfway(rays_, cur, vertex.point);
       if (!middle) return Step::Failed;
       const auto nearer =
           sites_.nearer_than(middle->radius() * (1.0 - kOneVertex), middle->left.uv, {middle->left, middle->right});
@@ -325,7 +239,7 @@ EdgeTracer::Step EdgeTracer::take_vertex(Walk& walk, const Vertex& found) const 
     if (outcome != Step::Going) return outcome;
     walk.edge.generators = vertex.generators;
     walk.edge.end = TraceEnd::Vertex;
-    if (const auto place = on_border(vertex.point)) {
+    if (const auto place = on_border_.place_of(vertex.point)) {
       walk.edge.place = *place;
       walk.edge.end = TraceEnd::Border;
     }
@@ -334,17 +248,10 @@ EdgeTracer::Step EdgeTracer::take_vertex(Walk& walk, const Vertex& found) const 
   return Step::Failed;
 }
 
-std::optional<BorderPlace> EdgeTracer::on_border(const BisectorPoint& m) const {
-  const double near = kOnBorder * m.radius();
-  if (border_.cycle_count() == 0 || !border_.near_border(m.position(), near)) return std::nullopt;
-  const auto place = border_.nearest(domain_.to_principal(m.left.uv));
-  return place && (border_.xyz(*place) - m.position()).norm() < near ? place : std::nullopt;
-}
-
 EdgeTracer::Step EdgeTracer::take_point(Walk& walk, const BisectorPoint& next) const {
   if (!goes_on(walk.current(), next)) return Step::Failed;
-  if (const auto crossing = leaves_face(walk.current(), next, walk.skip(), 0)) {
-    return end_on_border(walk, next, *crossing) ? Step::Ended : Step::Failed;
+  if (const auto crossing = on_border_.first_crossing(walk.current(), next, walk.on_border())) {
+    return end_on_border(walk, chord(walk.current(), next), *crossing) ? Step::Ended : Step::Failed;
   }
   walk.edge.points.push_back(next);
   return Step::Going;
@@ -382,60 +289,10 @@ bool EdgeTracer::end_freely(Walk& walk) const {
   return true;
 }
 
-// Near the border a chord is halved until the cubic of the parameter plane, of which half way tells how good it is,
-// lies as near to the edge as the border's own chords to the border.
-std::optional<EdgeTracer::Crossing> EdgeTracer::leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip,
-                                                            int depth) const {
-  if (border_.cycle_count() == 0) return std::nullopt;
-  const double reach = kBorderMargin * chord(a, b);
-  if (depth > 0 && !border_.near_border(a.position(), reach)) return std::nullopt;
-  const Uv from = domain_.to_principal(a.left.uv);
-  if (depth == 0 && domain_.contains(from) && domain_.distance_to_border(from) > reach) return std::nullopt;
-  if (depth < kDeepest && sag_of(a, b) > sag_) {
-    if (const auto middle = halfway(a, b)) {
-      const ParameterCubic whole(rays_.surface(), a, b, from);
-      const Xyz guess = rays_.surface().position(whole.at(0.5));
-      const bool good = (guess - middle->position()).norm() <= sag_;
-      const auto look = [&](const BisectorPoint& p, const BisectorPoint& q, double part) {
-        return good ? cubic_leaves_face(p, q, part) : leaves_face(p, q, part, depth + 1);
-      };
-      if (const auto first = look(a, *middle, 2.0 * skip)) return first;
-      return look(*middle, b, 0.0);
-    }
-  }
-  const Uv to = from + nearest_copy(rays_.surface(), a.left.uv, b.left.uv);
-  if (const auto crossing = chord_leaves_face(from, to, skip)) return Crossing{a, b, *crossing};
-  return std::nullopt;
-}
-
-std::optional<FaceBorder::Crossing> EdgeTracer::chord_leaves_face(Uv from, Uv to, double skip) const {
-  if (const auto crossing = border_.first_crossing(from, to, skip)) return crossing;
-  if (domain_.contains(to)) return std::nullopt;
-  const auto place = border_.nearest(to);
-  if (!place) return std::nullopt;
-  return FaceBorder::Crossing{*place, 1.0};
-}
-
-// The chords of the cubic lie as near to it as it does to the edge.
-std::optional<EdgeTracer::Crossing> EdgeTracer::cubic_leaves_face(const BisectorPoint& a, const BisectorPoint& b,
-                                                                  double skip) const {
-  const ParameterCubic cubic(rays_.surface(), a, b, domain_.to_principal(a.left.uv));
-  const int pieces = static_cast<int>(std::clamp(std::ceil(std::sqrt(sag_of(a, b) / sag_)), 1.0, kMostPieces));
-  for (int i = 0; i < pieces; ++i) {
-    const double k = 1.0 * i / pieces, next = (i + 1.0) / pieces;
-    auto crossing = chord_leaves_face(cubic.at(k), cubic.at(next), i == 0 ? skip * pieces : 0.0);
-    if (!crossing) continue;
-    crossing->fraction = k + crossing->fraction * (next - k);
-    return Crossing{a, b, *crossing};
-  }
-  return std::nullopt;
-}
-
-bool EdgeTracer::end_on_border(Walk& walk, const BisectorPoint& next, const Crossing& crossing) const {
-  BorderPlace place = crossing.at.place;
-  const BisectorPoint& near = crossing.at.fraction < 0.5 ? crossing.from : crossing.to;
-  const auto point = border_point(near, place);
-  if (!point || chord(walk.current(), *point) > 2.0 * chord(walk.current(), next)) return false;
+bool EdgeTracer::end_on_border(Walk& walk, double h, const EdgeOnBorder::Crossing& crossing) const {
+  BorderPlace place;
+  const auto point = on_border_.point(crossing, place);
+  if (!point || chord(walk.current(), *point) > kMostOvershoot * h) return false;
   const auto nearer =
       sites_.nearer_than(point->radius() * (1.0 - kOneVertex), point->left.uv, {point->left, point->right});
   if (!nearer.empty()) return false;
@@ -443,44 +300,6 @@ bool EdgeTracer::end_on_border(Walk& walk, const BisectorPoint& next, const Cros
   walk.edge.place = place;
   walk.edge.end = TraceEnd::Border;
   return true;
-}
-
-// Where parameters lose the tangent plane on the border no ray can be followed beyond it, and a step that would end
-// there has no point. Straight on in the parameter plane lies the border near enough for a start.
-bool EdgeTracer::end_before_side(Walk& walk, double h) const {
-  const BisectorPoint cur = walk.current();
-  if (border_.cycle_count() == 0 || !border_.near_border(cur.position(), h)) return false;
-  const SurfaceJet j = rays_.surface().jet(cur.left.uv);
-  const Uv from = domain_.to_principal(cur.left.uv);
-  const UvVec step = tangent_components(j, kBeyondSide * h * cur.tangent());
-  if (!is_finite(step)) return false;
-  const auto crossing = border_.first_crossing(from, from + step, walk.skip());
-  if (!crossing) return false;
-  BisectorPoint next = cur;
-  next.left.x = next.right.x = cur.position() + h * cur.tangent();
-  return end_on_border(walk, next, {cur, cur, *crossing});
-}
-
-// Newton's method for d_left = d_right along the border.
-std::optional<BisectorPoint> EdgeTracer::border_point(const BisectorPoint& near, BorderPlace& place) const {
-  BisectorPoint m = near;
-  const double n = border_.segment_count(place.cycle);
-  for (int i = 0; i < kBorderIterations; ++i) {
-    const Uv uv = border_.uv(place);
-    const SurfaceJet j = rays_.surface().jet(uv);
-    const auto left = rays_.to(m.left.site, uv, carry(m.left, j.S));
-    const auto right = rays_.to(m.right.site, uv, carry(m.right, j.S));
-    if (!left || !right) return std::nullopt;
-    m = {*left, *right};
-    const double f = left->polar.s - right->polar.s;
-    if (std::abs(f) <= kBisectorTolerance * m.radius()) return m;
-    const double slope = (left->T - right->T).dot(push_forward(j, border_.direction(place)));
-    const double step = -f / slope;
-    if (!std::isfinite(step)) return std::nullopt;
-    place.parameter += std::clamp(step, -0.5 * n, 0.5 * n);
-    place.parameter -= n * std::floor(place.parameter / n);
-  }
-  return std::nullopt;
 }
 
 }  // namespace geovor

@@ -4,8 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "voronoi/bisector.h"
-#include "voronoi/face_border.h"
+#include "voronoi/edge_on_border.h"
 #include "voronoi/nearby_sites.h"
 
 namespace geovor {
@@ -37,18 +36,13 @@ struct TracedEdge {
 class EdgeTracer {
  public:
   /// All outlive the tracer. `sag`: how far a chord may lie from the edge where the border of the face is near.
-  EdgeTracer(const FaceDomain& domain, const FaceBorder& border, const SiteRays& rays, const NearbySites& sites,
-             double sag)
-      : domain_(domain), border_(border), rays_(rays), sites_(sites), sag_(sag) {}
+  EdgeTracer(const FaceBorder& border, const SiteRays& rays, const NearbySites& sites, double sag)
+      : rays_(rays), sites_(sites), on_border_(border, rays, sag) {}
 
   /// Walks in the direction of start.tangent(). `on_border`: the start lies on the face's border and the walk goes in.
   TracedEdge trace(const BisectorPoint& start, bool on_border) const;
 
  private:
-  struct Crossing {
-    BisectorPoint from, to;  ///< a chord that meets the border
-    FaceBorder::Crossing at;
-  };
   struct Walk;
   struct Vertex {
     std::vector<SiteRay> generators;
@@ -58,27 +52,18 @@ class EdgeTracer {
   Step advance(Walk& walk) const;
   Step take_vertex(Walk& walk, const Vertex& vertex) const;
   Step take_point(Walk& walk, const BisectorPoint& next) const;
-  bool end_on_border(Walk& walk, const BisectorPoint& next, const Crossing& crossing) const;
-  bool end_before_side(Walk& walk, double h) const;
+  bool end_on_border(Walk& walk, double h, const EdgeOnBorder::Crossing& crossing) const;
   bool close(Walk& walk, double h) const;
   bool end_freely(Walk& walk) const;
   double longest_step(const BisectorPoint& m) const;
   std::optional<BisectorPoint> predict(const Walk& walk, double h) const;
-  std::optional<BisectorPoint> halfway(const BisectorPoint& a, const BisectorPoint& b) const;
   std::optional<Vertex> foreseen_vertex(const BisectorPoint& from, double reach) const;
   std::optional<Vertex> find_vertex(const BisectorPoint& from, const BisectorPoint& guess, SiteRay rival,
                                     double reach) const;
-  std::optional<BisectorPoint> border_point(const BisectorPoint& near, BorderPlace& place) const;
-  std::optional<BorderPlace> on_border(const BisectorPoint& m) const;
-  std::optional<Crossing> leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip, int depth) const;
-  std::optional<FaceBorder::Crossing> chord_leaves_face(Uv from, Uv to, double skip) const;
-  std::optional<Crossing> cubic_leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip) const;
 
-  const FaceDomain& domain_;
-  const FaceBorder& border_;
   const SiteRays& rays_;
   const NearbySites& sites_;
-  double sag_;
+  EdgeOnBorder on_border_;
 };
 
 /// The generators of a point sorted counter-clockwise by the directions in which their sites lie, the first stays.
