@@ -14,6 +14,7 @@
 #include "voronoi/cells.h"
 #include "voronoi/dense_edge.h"
 #include "voronoi/edge_tracer.h"
+#include "voronoi/near_ties.h"
 #include "voronoi/path_checks.h"
 #include "voronoi/seam_check.h"
 #include "voronoi/vertex_table.h"
@@ -87,6 +88,8 @@ class DiagramBuilder {
   void trace_spoke(SpokeRef start);
   void open_spokes_of(int vertex);
   std::optional<SpokeRef> arrive(const TracedEdge& edge);
+  std::optional<SpokeRef> arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last);
+  bool put_vertices(const std::vector<SiteRay>& generators);
   void add(std::vector<BisectorPoint> points, SpokeRef start, SpokeRef end);
   void reach(int site, int edge);
   void remove(int edge);
@@ -164,8 +167,7 @@ void DiagramBuilder::keep(const PartDiagram& part) {
   for (size_t v = 0; v < d.vertices.size(); ++v) {
     const auto generators = kept_rays(d.vertices[v], part.which);
     if (!generators) continue;
-    const auto spoke = table_.arrive_inside(*generators, {(*generators)[0], (*generators)[1]});
-    if (spoke) number[v] = spoke->vertex;
+    number[v] = table_.put_inside(*generators);
   }
   const auto spoke_of = [&](int vertex, int edge, bool at_end) {
     const auto& spokes = d.vertices[vertex].spokes;
@@ -224,14 +226,12 @@ void DiagramBuilder::start_at_site(int site) {
 void DiagramBuilder::trace_both_ways(const BisectorPoint& seed) {
   if (domain_.distance_to_border(domain_.to_principal(seed.left.uv)) < kMerge * seed.radius()) return;  // found there
   const double radius = seed.radius();
-  const auto tied = sites_.nearer_than(radius * (1.0 + kOneVertex), seed.left.uv, {seed.left, seed.right});
+  const auto tied = sites_.nearer_than(radius * (1.0 + kTieWindow), seed.left.uv, {seed.left, seed.right});
   if (!tied.empty()) {
     std::vector<SiteRay> generators = {seed.left, seed.right};
     generators.insert(generators.end(), tied.begin(), tied.end());
     sort_around(generators);
-    const auto spoke = table_.arrive_inside(generators, {generators[0], generators[1]});
-    if (spoke) open_spokes_of(spoke->vertex);
-    return;
+    if (put_vertices(generators)) return;
   }
   const TracedEdge onward = tracer_.trace(seed, false);
   if (onward.end == TraceEnd::Closed) {
@@ -266,7 +266,9 @@ void DiagramBuilder::trace_open_spokes() {
 
 void DiagramBuilder::trace_spoke(SpokeRef start) {
   const TracedEdge edge = tracer_.trace(table_.departure(start), table_.vertex(start.vertex).on_boundary);
-  if (const auto end = arrive(edge)) add(edge.points, start, *end);
+  const auto end = arrive(edge);
+  // The edge may be one of a knot of vertices at its end.
+  if (end && !table_.taken(start)) add(edge.points, start, *end);
 }
 
 std::optional<SpokeRef> DiagramBuilder::arrive(const TracedEdge& edge) {
@@ -274,7 +276,7 @@ std::optional<SpokeRef> DiagramBuilder::arrive(const TracedEdge& edge) {
   std::optional<SpokeRef> spoke;
   switch (edge.end) {
     case TraceEnd::Vertex:
-      spoke = table_.arrive_inside(edge.generators, last);
+      spoke = arrive_inside(edge.generators, last);
       break;
     case TraceEnd::Border:
       spoke = table_.arrive_on_border(edge.place, last);
@@ -294,6 +296,32 @@ std::optional<SpokeRef> DiagramBuilder::arrive(const TracedEdge& edge) {
   }
   if (spoke) open_spokes_of(spoke->vertex);
   return spoke;
+}
+
+std::optional<SpokeRef> DiagramBuilder::arrive_inside(const std::vector<SiteRay>& generators,
+                                                      const BisectorPoint& last) {
+  if (const auto known = table_.arriving(last)) return known;
+  put_vertices(generators);
+  return table_.arriving(last);
+}
+
+// No step leads along an edge within the disk: it is straight, from one vertex to the other.
+bool DiagramBuilder::put_vertices(const std::vector<SiteRay>& generators) {
+  std::vector<int> number;
+  for (const TiedVertex& v : resolve_ties(rays_, generators)) {
+    number.push_back(table_.put_inside(v.generators));
+    if (v.parent >= 0) {
+      const SiteRay &first = v.generators.front(), &last = v.generators.back();
+      const auto from = table_.spoke_between(number[v.parent], first, last);
+      const auto to = table_.spoke_between(number.back(), last, first);
+      if (from && to && !table_.taken(*from) && !table_.taken(*to)) {
+        const BisectorPoint end = table_.departure(*to);
+        add({table_.departure(*from), {end.right, end.left}}, *from, *to);
+      }
+    }
+  }
+  for (int vertex : number) open_spokes_of(vertex);
+  return !number.empty();
 }
 
 // Two edges that claim one spoke: the longer has passed by a vertex that the shorter one comes from. It goes, and what

@@ -73,12 +73,6 @@ bool near_conjugate_point(const BisectorPoint& m, double between) {
 
 }  // namespace
 
-void sort_around(std::vector<SiteRay>& g) {
-  const Xyz first = -g.front().T, n = g.front().T.cross(g.front().N);
-  const auto angle = [&](const SiteRay& ray) { return turn_between(first, -ray.T, n); };
-  std::stable_sort(g.begin() + 1, g.end(), [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
-}
-
 /// An edge on its way.
 struct EdgeTracer::Walk {
   TracedEdge edge;
@@ -200,7 +194,7 @@ std::optional<EdgeTracer::Vertex> EdgeTracer::find_vertex(const BisectorPoint& f
     if (!(from.tangent().dot(way) > kOneVertex * c.radius) || way.norm() > reach) return std::nullopt;
     if (!(std::abs(radius - from.radius()) <= reach)) return std::nullopt;  // no distance changes faster than one moves
     if (same_generator(r[0], r[1]) || same_generator(r[0], r[2]) || same_generator(r[1], r[2])) return std::nullopt;
-    const auto nearer = sites_.nearer_than(radius * (1.0 + kOneVertex), r[0].uv, {r[0], r[1], r[2]});
+    const auto nearer = sites_.nearer_than(radius * (1.0 + kTieWindow), r[0].uv, {r[0], r[1], r[2]});
     if (nearer.empty() || nearer.front().polar.s >= radius * (1.0 - kOneVertex)) {
       Vertex vertex{{r.begin(), r.end()}, {r[0], r[1]}};
       vertex.generators.insert(vertex.generators.end(), nearer.begin(), nearer.end());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "voronoi/edge_on_border.h"
+#include "voronoi/near_ties.h"
 #include "voronoi/nearby_sites.h"
 
 namespace geovor {
@@ -21,7 +22,7 @@ enum class TraceEnd {
 struct TracedEdge {
   std::vector<BisectorPoint> points;  ///< from the start to the end, both included
   TraceEnd end = TraceEnd::Stuck;
-  std::vector<SiteRay> generators;  ///< Vertex: all that are equidistant, counter-clockwise by their directions
+  std::vector<SiteRay> generators;  ///< Vertex: all that are as near to kTieWindow, counter-clockwise (sort_around)
   BorderPlace place;                ///< Border
 };
 
@@ -65,12 +66,5 @@ class EdgeTracer {
   const NearbySites& sites_;
   EdgeOnBorder on_border_;
 };
-
-/// The generators of a point sorted counter-clockwise by the directions in which their sites lie, the first stays.
-void sort_around(std::vector<SiteRay>& generators);
-
-/// Generators whose distances agree to this part of the radius make one vertex: above the noise of distances (a few
-/// kRayTolerance), and no more than what the diagram promises of distances at a vertex.
-inline constexpr double kOneVertex = 1e-12;
 
 }  // namespace geovor

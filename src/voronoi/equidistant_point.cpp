@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "surface/forms.h"
+#include "surface/pole_chart.h"
 #include "voronoi/shot_ladder.h"
 
 namespace geovor {
@@ -101,7 +102,7 @@ class Round {
       if (!(length <= kLongestStep * here.rays[0].polar.s)) return false;
       const UvVec d = tangent_components(j, step);
       if (!is_finite(d)) return false;
-      if (i > 0 && length <= kLastStep * target->radius) {
+      if (i > 0 && length * length <= kLastStep * kLastStep * target->radius * straight(here.rays[0])) {
         end_ = arrived(here, *target, d);
         return true;
       }
@@ -120,6 +121,13 @@ class Round {
   double tolerance_met() const { return met_; }
 
  private:
+  /// What the length of a step is measured by for which parameters move in proportion: beside a pole the way to it.
+  double straight(const SiteRay& ray) const {
+    double way = ray.polar.s;
+    for (const auto& chart : rays_.surface().poles()) way = std::min(way, (ray.x - chart->pole()).norm());
+    return way;
+  }
+
   // Rays that go round a closed surface end in their own copies of the point.
   MeetingRays arrived(const MeetingRays& here, const Target& target, UvVec d) const {
     MeetingRays end = here;

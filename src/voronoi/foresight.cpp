@@ -7,7 +7,7 @@ namespace geovor {
 namespace {
 
 // A site that the bisector would reach after less than this part of the radius is one of the vertex that it leaves.
-constexpr double kBehind = 1e-9;
+constexpr double kBehind = 1e-11;
 
 /// log_m of a point of space X: its direction in the tangent plane, its distance along a circle through both that is
 /// tangent to the plane. c the chord, h its height: c (1 + (h/c)^2 / 6) to fourth order in c.

@@ -54,25 +54,36 @@ std::vector<int> VertexTable::near(const Xyz& x) const {
   return found;
 }
 
-std::optional<int> VertexTable::spoke_between(const Vertex& v, const SiteRay& right, const SiteRay& left) const {
+std::optional<SpokeRef> VertexTable::spoke_between(int vertex, const SiteRay& right, const SiteRay& left) const {
+  const Vertex& v = vertices_[vertex];
   const int n = static_cast<int>(v.rays.size());
   for (int i = 0; i < static_cast<int>(v.data.spokes.size()); ++i) {
-    if (same_ray(v.rays[i], right) && same_ray(v.rays[(i + 1) % n], left)) return i;
+    if (same_ray(v.rays[i], right) && same_ray(v.rays[(i + 1) % n], left)) return SpokeRef{vertex, i};
   }
   return std::nullopt;
 }
 
 // Seen from the vertex the chain's left site is to the right.
-std::optional<SpokeRef> VertexTable::arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last) {
+std::optional<SpokeRef> VertexTable::arriving(const BisectorPoint& last) const {
   for (int i : near(last.position())) {
-    const Vertex& v = vertices_[i];
-    if (v.data.on_boundary) continue;
-    if (const auto spoke = spoke_between(v, last.left, last.right)) return SpokeRef{i, *spoke};
+    if (vertices_[i].data.on_boundary) continue;
+    if (const auto spoke = spoke_between(i, last.left, last.right)) return spoke;
   }
-  const int made = add(generators, static_cast<int>(generators.size()));
-  const auto spoke = spoke_between(vertices_[made], last.left, last.right);
-  if (!spoke) return std::nullopt;
-  return SpokeRef{made, *spoke};
+  return std::nullopt;
+}
+
+bool VertexTable::has_generators(const Vertex& v, const std::vector<SiteRay>& generators) const {
+  return !v.data.on_boundary && v.rays.size() == generators.size() &&
+         std::all_of(generators.begin(), generators.end(), [&](const SiteRay& g) {
+           return std::any_of(v.rays.begin(), v.rays.end(), [&](const SiteRay& ray) { return same_ray(ray, g); });
+         });
+}
+
+int VertexTable::put_inside(const std::vector<SiteRay>& generators) {
+  for (int i : near(generators.front().x)) {
+    if (has_generators(vertices_[i], generators)) return i;
+  }
+  return add(generators, static_cast<int>(generators.size()));
 }
 
 std::optional<SpokeRef> VertexTable::arrive_on_border(BorderPlace place, const BisectorPoint& last) {
@@ -83,7 +94,7 @@ std::optional<SpokeRef> VertexTable::arrive_on_border(BorderPlace place, const B
 // those that are there.
 std::optional<SpokeRef> VertexTable::extend_border_vertex(int i, const BisectorPoint& outwards) {
   Vertex& v = vertices_[i];
-  if (const auto spoke = spoke_between(v, outwards.right, outwards.left)) return SpokeRef{i, *spoke};
+  if (const auto spoke = spoke_between(i, outwards.right, outwards.left)) return spoke;
   const auto insert = [&](int at, int spoke, const SiteRay& ray) {
     v.rays.insert(v.rays.begin() + at, ray);
     v.data.sites.insert(v.data.sites.begin() + at, ray.site);

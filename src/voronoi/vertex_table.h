@@ -29,9 +29,15 @@ class VertexTable {
   /// side, have the same vertex; model units.
   VertexTable(const FaceDomain& domain, double merge) : domain_(domain), merge_(merge) {}
 
-  /// The spoke by which an edge arrives whose last point has these rays to its left and right. Makes the vertex, with
-  /// its generators counter-clockwise, where there is none yet. Nothing if the vertex has no such spoke.
-  std::optional<SpokeRef> arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last);
+  /// The open or taken spoke by which an edge arrives whose last point has these rays to its left and right.
+  std::optional<SpokeRef> arriving(const BisectorPoint& last) const;
+
+  /// The number of the vertex inside the face with these generators, counter-clockwise; a new one if there is none yet.
+  int put_inside(const std::vector<SiteRay>& generators);
+
+  /// The spoke of a vertex between two generators that are neighbours there, as seen from it.
+  std::optional<SpokeRef> spoke_between(int vertex, const SiteRay& right, const SiteRay& left) const;
+
   std::optional<SpokeRef> arrive_on_border(BorderPlace place, const BisectorPoint& last);
   SpokeRef arrive_at_free_end(const BisectorPoint& last);
 
@@ -61,7 +67,7 @@ class VertexTable {
   int add(const std::vector<SiteRay>& rays, int spokes);
   Cell cell_of(const Xyz& x) const;
   std::vector<int> near(const Xyz& x) const;
-  std::optional<int> spoke_between(const Vertex& vertex, const SiteRay& right, const SiteRay& left) const;
+  bool has_generators(const Vertex& vertex, const std::vector<SiteRay>& generators) const;
   std::optional<SpokeRef> extend_border_vertex(int vertex, const BisectorPoint& outwards);
 
   const FaceDomain& domain_;

@@ -156,5 +156,36 @@ TEST_P(OnPlane, VerticesAreTheDelaunayTriangles) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, OnPlane, ::testing::Values(3, 10, 30, 60));
 
+// Cells of a grid meet four by four, but for the noise: what decides is far below the way between the sites, and above
+// what a diagram takes for a tie.
+constexpr double kNoise = 1e-9;
+
+TEST(NoisyGrid, HasTheDelaunayTrianglesOnThePlane) {
+  const TestFace face = plane_square();
+  Uniform random(3);
+  std::vector<Uv> sites;
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k < 6; ++k) {
+      sites.push_back({-0.8 + 0.32 * i + kNoise * (random() - 0.5), -0.8 + 0.32 * k + kNoise * (random() - 0.5)});
+    }
+  }
+  EXPECT_EQ(triples_inside(build_diagram(face.domain(), sites)), delaunay_triangles(sites));
+}
+
+TEST(NoisyGrid, HasTheFacetsOfTheConvexHullOnTheSphere) {
+  const TestFace face = whole(std::make_shared<Sphere>(Frame{}, 1.0));
+  Uniform random(3);
+  std::vector<Uv> sites;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = -2; k < 3; ++k) {
+      sites.push_back({2.0 * kPi * i / 8 + kNoise * (random() - 0.5), 0.5 * k + kNoise * (random() - 0.5)});
+    }
+  }
+  const VoronoiDiagram d = build_diagram(face.domain(), sites);
+  std::vector<Xyz> x;
+  for (const DiagramSite& s : d.sites) x.push_back(s.xyz);
+  EXPECT_EQ(triples_inside(d), hull_facets(x));
+}
+
 }  // namespace
 }  // namespace geovor::testing
