@@ -36,6 +36,7 @@ struct SheetEdge {
 struct SheetUse {
   int edge = -1;
   bool reversed = false;
+  UvVec shift;  ///< whole periods from the edge's p-curve to the one of this use
 };
 
 struct SheetFace {
@@ -43,7 +44,8 @@ struct SheetFace {
   std::vector<std::vector<SheetUse>> loops;  ///< the outer one first; the face to the left
 };
 
-/// The edges are shared by the faces. A seam of the CAD face is an edge with two p-curves, and the faces end there.
+/// The edges are shared by the faces. A face may use a piece of a seam of the CAD face twice, once in each direction,
+/// or cross it: then some of its uses are shifted.
 struct CadSheet {
   std::vector<Xyz> vertices;
   std::vector<SheetEdge> edges;

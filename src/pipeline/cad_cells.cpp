@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "pipeline/cell_sheet.h"
 #include "pipeline/edge_spline.h"
+#include "pipeline/joined_cells.h"
 
 namespace geovor {
 namespace {
@@ -65,27 +66,27 @@ class SheetWriter {
 
   void add_faces(CadSheet& out) {
     out.vertices = cells_.vertices;
-    for (const SheetCell& cell : cells_.cells) {
+    for (const JoinedCell& cell : joined_cells(cells_, outline_)) {
       SheetFace face;
       face.name = "site " + std::to_string(cell.site);
       for (const auto& loop : cell.loops) {
         face.loops.emplace_back();
-        for (const LineUse& use : loop) add_use(use, face.loops.back(), out);
+        for (const ShiftedUse& one : loop) {
+          face.loops.back().push_back(use_of(one.use, out));
+          face.loops.back().back().shift = one.shift;
+        }
       }
       out.faces.push_back(std::move(face));
     }
   }
 
  private:
-  void add_use(LineUse use, std::vector<SheetUse>& loop, CadSheet& out) {
+  SheetUse use_of(LineUse use, CadSheet& out) {
     const SheetLine& line = cells_.lines[use.line];
-    if (line.run < 0) {
-      loop.push_back(stretch(line, out));
-      return;
-    }
+    if (line.run < 0) return stretch(line, out);
     const auto [at, is_new] = runs_.try_emplace(use.line, static_cast<int>(out.edges.size()));
     if (is_new) out.edges.push_back(run(line));
-    loop.push_back({at->second, use.reversed});
+    return {at->second, use.reversed, {}};
   }
 
   SheetEdge run(const SheetLine& line) const {
@@ -120,7 +121,7 @@ class SheetWriter {
       }
       out.edges.push_back(std::move(edge));
     }
-    return {at->second, reversed};
+    return {at->second, reversed, {}};
   }
 
   const FaceOutline& outline_;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "pipeline/merged_sets.h"
 #include "pipeline/sheet_nodes.h"
 
 // The lines and the outline make a planar map of the parameter plane. Around a node inside the face the runs stand as
@@ -238,8 +239,19 @@ class SheetBuilder {
     if (sheet_.problem.empty()) sheet_.problem = why;
   }
 
-  /// The smallest outer loop around a hole is its own.
+  /// Which lines hang together: the walks along the outside of such a part run clockwise, and lie in a cell of
+  /// another part. (An island's border, a closed edge, is walked both ways: once around the island's cell and once as
+  /// the hole of the cell around it.)
+  void find_parts() {
+    parts_.resize(static_cast<int>(spokes_.size()));
+    for (size_t i = 0; i < from_.size(); ++i) parts_.merge(from_[i], to_[i]);
+  }
+
+  int part_of(const WalkedLoop& loop) const { return parts_.find(from_[loop.uses.front().line]); }
+
+  /// A hole belongs to the smallest loop of another part that is around it.
   void assign_holes() {
+    find_parts();
     std::vector<int> outer;
     for (int i = 0; i < static_cast<int>(loops_.size()); ++i) {
       if (loops_[i].area > 0.0) outer.push_back(i);
@@ -251,6 +263,7 @@ class SheetBuilder {
       int best = -1;
       for (int i : outer) {
         if (best >= 0 && loops_[i].area >= loops_[best].area) continue;
+        if (part_of(loops_[i]) == part_of(hole)) continue;
         if (mostly_inside(loops_[i].polygon, hole.polygon)) best = i;
       }
       if (best < 0) {
@@ -270,7 +283,7 @@ class SheetBuilder {
     }
   }
 
-  /// Two loops may touch, so one point does not tell.
+  /// Parts may touch up to rounding, so one point does not tell.
   static bool mostly_inside(const std::vector<Uv>& outer, const std::vector<Uv>& inner) {
     const auto count = std::count_if(inner.begin(), inner.end(), [&](Uv p) { return holds(outer, p); });
     return 2 * static_cast<size_t>(count) > inner.size();
@@ -306,6 +319,7 @@ class SheetBuilder {
   std::vector<std::vector<Spoke2>> spokes_;    ///< of a node
   std::vector<int> leaving_;                   ///< of a node on the outline: the stretch that leaves it
   std::vector<int> from_, to_, left_, right_;  ///< of a line: nodes, sites
+  MergedSets parts_;                           ///< nodes that lines join
   std::vector<WalkedLoop> loops_;
 };
 

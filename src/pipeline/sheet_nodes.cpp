@@ -7,18 +7,7 @@ namespace geovor {
 
 int MergedVertices::add(const Xyz& x) {
   points_.push_back(x);
-  parent_.push_back(count() - 1);
-  return count() - 1;
-}
-
-int MergedVertices::find(int a) const {
-  while (parent_[a] != a) a = parent_[a];
-  return a;
-}
-
-void MergedVertices::merge(int a, int b) {
-  a = find(a), b = find(b);
-  parent_[std::max(a, b)] = std::min(a, b);
+  return sets_.add();
 }
 
 SheetNodes::SheetNodes(const CadModel& model, const FaceOutline& outline, double merge)

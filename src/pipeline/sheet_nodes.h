@@ -7,6 +7,7 @@
 #include "brep/model.h"
 #include "pipeline/edge_runs.h"
 #include "pipeline/face_outline.h"
+#include "pipeline/merged_sets.h"
 
 namespace geovor {
 
@@ -14,14 +15,14 @@ namespace geovor {
 class MergedVertices {
  public:
   int add(const Xyz& x);
-  void merge(int a, int b);
-  int find(int a) const;
+  void merge(int a, int b) { sets_.merge(a, b); }
+  int find(int a) const { return sets_.find(a); }
   const Xyz& at(int a) const { return points_[find(a)]; }
   int count() const { return static_cast<int>(points_.size()); }
 
  private:
   std::vector<Xyz> points_;
-  std::vector<int> parent_;
+  MergedSets sets_;
 };
 
 /// A node is a place of the outline in the parameter plane; a vertex is a place in space. The two sides of a seam have

@@ -56,9 +56,14 @@ class VoronoiStep(ProgramTest):
     def test_a_trimmed_face_with_a_hole(self):
         self.check("freeform_trimmed.step", "--count", 6)
 
-    def test_a_tube_is_cut_at_its_seam(self):
+    def test_cells_on_a_tube_are_one_face_each_across_its_seam(self):
         document, faces = self.check("cylinder_tube.step", "--count", 5)
-        self.assertGreater(len(faces), len(document["sites"]))
+        self.assertEqual(len(faces), len(document["sites"]))
+
+    def test_islands_are_faces_in_holes(self):
+        self.write("sites.csv", "u,v\n0,-1\n-1,0.2\n1,0.2\n")  # the paper's figure 6
+        _, faces = self.check("bumps.step", "--sites", "sites.csv")
+        self.assertEqual(len(faces), 3)
 
     def test_an_edge_along_the_seam(self):
         self.write("sites.csv", "x,y,z\n0,10,15\n0,-10,15\n")  # the seam, at y = 0, x = 10, is half of their bisector
