@@ -82,7 +82,7 @@ TracedRay RaySource::end(double s, double t, const TraceOptions& options) const 
   TracedRay end;
   end.status = TraceStatus::Converged;
   for (double leg = 0.0; leg < s && end.status == TraceStatus::Converged;) {
-    leg = map_ ? map_->leg_end(path.state().p, leg, s) : s;
+    leg = map_ ? map_->leg_end(path.state().p, leg, s, options.tolerance) : s;
     while (end.status == TraceStatus::Converged && path.advance_step(leg)) {
       end.status = map_ && !map_->near_domain(path.state().p) ? TraceStatus::LeftDomain : path.status();
     }

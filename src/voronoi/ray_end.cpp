@@ -39,7 +39,7 @@ std::vector<SpaceState> states_along(const Surface& surface, Uv site, Polar to, 
   double leg = 0.0;
   for (int i = 1; i <= pieces; ++i) {
     for (const double end = to.s * i / pieces; leg < end;) {
-      leg = curvature.leg_end(path.state().p, leg, end);
+      leg = curvature.leg_end(path.state().p, leg, end, kRetraceTolerance);
       if (path.advance(leg) != TraceStatus::Converged) return states;
     }
     states.push_back(path.at());
@@ -95,7 +95,7 @@ RayEnd trace_by_steps(const Surface& surface, Uv site, Polar to, const Curvature
   path.keep(&steps);
   double sum = 0.0;
   for (double leg = 0.0; leg < to.s && path.status() == TraceStatus::Converged;) {
-    leg = curvature.leg_end(path.state().p, leg, to.s);
+    leg = curvature.leg_end(path.state().p, leg, to.s, kRetraceTolerance);
     while (path.advance_step(leg)) {
       for (const PathLeg& step : steps.legs) sum += integral_of_y(surface, step);
       steps.legs.clear();
