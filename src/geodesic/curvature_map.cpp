@@ -90,6 +90,10 @@ double CurvatureMap::leg_end(Uv p, double covered, double s, double tolerance) c
   return rest <= leg ? s : covered + rest / std::ceil(rest / leg);
 }
 
+double CurvatureMap::tolerance_of(Uv p, double leg) const {
+  return std::pow(leg / (kLegForTolerance * radius(p)), dop853::kErrorOrder);
+}
+
 double CurvatureMap::radius(Uv p) const {
   if (!is_finite(p)) return kInf;
   return radii_[cell(p.v, box_.v, v_periodic_) * kCells + cell(p.u, box_.u, u_periodic_)];

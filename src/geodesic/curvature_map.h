@@ -23,6 +23,9 @@ class CurvatureMap {
   /// off, on a monkey saddle some of length 0.1 were 8e-12. Legs that are a part of radius() end before.
   double leg_end(Uv p, double covered, double s, double tolerance) const;
 
+  /// The tolerance for which a leg of this length from p is short enough, whatever the steps on it say of their errors.
+  double tolerance_of(Uv p, double leg) const;
+
   /// Whether p is not far beyond the domain: within half of its extents. Farther out, continued polynomials are no
   /// guide to anything, and a path may take thousands of steps.
   bool near_domain(Uv p) const;

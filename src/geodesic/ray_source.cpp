@@ -81,8 +81,12 @@ TracedRay RaySource::end(double s, double t, const TraceOptions& options) const 
   GeodesicIntegrator path(*surface_, p_, T, s, options);
   TracedRay end;
   end.status = TraceStatus::Converged;
+  double met = 0.0;
   for (double leg = 0.0; leg < s && end.status == TraceStatus::Converged;) {
-    leg = map_ ? map_->leg_end(path.state().p, leg, s, options.tolerance) : s;
+    const Uv from = path.state().p;
+    const double before = leg;
+    leg = map_ ? map_->leg_end(from, leg, s, options.tolerance) : s;
+    if (map_) met = std::max(met, map_->tolerance_of(from, leg - before));
     while (end.status == TraceStatus::Converged && path.advance_step(leg)) {
       end.status = map_ && !map_->near_domain(path.state().p) ? TraceStatus::LeftDomain : path.status();
     }
@@ -90,7 +94,7 @@ TracedRay RaySource::end(double s, double t, const TraceOptions& options) const 
   end.at = path.at();
   end.d = path.state().d;
   end.jet = path.jet();
-  end.tolerance = std::min(path.tolerance_met(), options.tolerance);
+  end.tolerance = std::min(std::max(met, path.tolerance_met()), options.tolerance);
   end.evaluations = path.evaluations() + 2;
   return end;
 }
@@ -132,26 +136,25 @@ TracedRay RaySource::one_step(const Xyz& T, double s, double tolerance) const {
   const GeodesicVector ahead = x + s * slope;
   if (!stays_on_piece(x, ahead, s)) return {};
   const auto short_enough_loose = [&](double bend) { return kOrder4 * std::pow(bend, 5) <= tolerance; };
-  const auto short_enough = [&](double bend) {
-    return bend <= kOneStep * std::pow(tolerance, 1.0 / dop853::kErrorOrder);
-  };
+  const auto short_enough_for = [](double bend) { return std::pow(bend / kOneStep, dop853::kErrorOrder); };
   const bool loose = tolerance >= kLoosest && short_enough_loose(reach);
-  if (!loose && !short_enough(reach)) return {};
+  if (!loose && !(short_enough_for(reach) <= tolerance)) return {};
   GeodesicVector end;
   double met = std::numeric_limits<double>::infinity();
   if (loose) {
     end = classical_step(x, slope, s, flow);
   } else {
     const auto step = dop853::step(x, slope, s, flow);
-    met = error_of(step, jet_, s) / kAllowed;
+    met = std::max(error_of(step, jet_, s) / kAllowed, short_enough_for(reach));
     end = step.state;
     if (!(met <= tolerance)) return {};
   }
   if (!(flow.normal.dot(normal) > 0.0 && stays_on_piece(x, end, s))) return {};
-  const TracedRay ray = finish(end, met, loose ? 4 : dop853::kStages);
+  TracedRay ray = finish(end, met, loose ? 4 : dop853::kStages);
   // The step may have come from a flat place to a curved one that it knows nothing of.
   const double bend = s * curvatures(ray.jet).largest();
-  if (!(loose ? short_enough_loose(bend) : short_enough(bend))) return {};
+  if (!loose) ray.tolerance = std::max(met, short_enough_for(bend));
+  if (!(loose ? short_enough_loose(bend) : ray.tolerance <= tolerance)) return {};
   return ray;
 }
 
