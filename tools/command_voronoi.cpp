@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "certificate_report.h"
@@ -86,33 +87,49 @@ PageFacts page_facts(const CadModel& model, const CadFace& face, const VoronoiRe
   return {fmt::format("{} {}: {} sites", file, face_label(face.number), result.diagram.sites.size()), model.unit};
 }
 
-void write_outputs(const VoronoiArguments& arguments, const CadModel& model, const CadFace& face,
-                   const VoronoiResult& result) {
-  const DocumentSource source = document_source(model, face, result.parameters);
-  std::optional<CellMesh> mesh;
+void write_output(const std::string& path, const std::string& place, const VoronoiArguments& arguments,
+                  const CadModel& model, const CadFace& face, const VoronoiResult& result,
+                  std::optional<CellMesh>& mesh) {
   const auto cell_mesh = [&]() -> const CellMesh& {
     if (!mesh) mesh = mesh_of_cells(model, face, result.diagram, result.deflection);
     return *mesh;
   };
+  if (ending(path) == ".json") {
+    write_diagram_json(document_source(model, face, result.parameters), result.diagram, result.dual,
+                       result.certificate ? &*result.certificate : nullptr, place);
+  } else if (ending(path).starts_with(".st")) {
+    const CadSheet sheet = cad_cells(model, face, result.diagram, result.deflection);
+    write_step(sheet, {arguments.input, face.number, model.unit}, place);
+  } else if (ending(path) == ".vtp") {
+    write_diagram_vtp(result.diagram, cell_mesh(), place);
+  } else if (ending(path) == ".html") {
+    write_diagram_html(result.diagram, cell_mesh(), page_facts(model, face, result), place);
+  } else {
+    write_diagram_svg(result.diagram, result.dual, result.raster, place);
+  }
+}
+
+/// Writes all outputs, or none. But where this diagram can't take the form of one of them, the others are written all
+/// the same: returned are those that were, and a line on stderr names each of the others.
+std::vector<std::string> write_outputs(const VoronoiArguments& arguments, const CadModel& model, const CadFace& face,
+                                       const VoronoiResult& result) {
+  std::optional<CellMesh> mesh;
   StagedOutputs outputs;
+  std::vector<std::string> written, refused;
   for (const std::string& path : arguments.outputs) {
-    outputs.add(path, [&](const std::string& place) {
-      if (ending(path) == ".json") {
-        write_diagram_json(source, result.diagram, result.dual, result.certificate ? &*result.certificate : nullptr,
-                           place);
-      } else if (ending(path).starts_with(".st")) {
-        const CadSheet sheet = cad_cells(model, face, result.diagram, result.deflection);
-        write_step(sheet, {arguments.input, face.number, model.unit}, place);
-      } else if (ending(path) == ".vtp") {
-        write_diagram_vtp(result.diagram, cell_mesh(), place);
-      } else if (ending(path) == ".html") {
-        write_diagram_html(result.diagram, cell_mesh(), page_facts(model, face, result), place);
-      } else {
-        write_diagram_svg(result.diagram, result.dual, result.raster, place);
-      }
-    });
+    try {
+      outputs.add(path,
+                  [&](const std::string& place) { write_output(path, place, arguments, model, face, result, mesh); });
+      written.push_back(path);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::FaceRejected) throw;
+      refused.push_back(
+          fmt::format("geovor: {}: {}: {}: {}\n", model.file, face_label(face.number), path, error.what()));
+    }
   }
   outputs.commit();
+  for (const std::string& line : refused) fmt::print(stderr, "{}", line);
+  return written;
 }
 
 std::string warnings_text(const VoronoiDiagram& diagram) {
@@ -204,15 +221,16 @@ int run(const VoronoiArguments& arguments) {
         fmt::format("{}: {}: the diagram of these sites could not be finished; more sites, or other ones, may mend it",
                     model.file, face_label(face.number)));
   }
-  write_outputs(arguments, model, face, result);
+  const std::vector<std::string> written = write_outputs(arguments, model, face, result);
   const bool complete = name_failure(model, face, result.diagram);
   if (complete) warn_of_exits(model, face, result.diagram);
   print_summary(model, face, result);
   const bool proved = !result.certificate || print_certificate(model, face, *result.certificate);
   fmt::print("{:<17} read {:.2f}, diagram {:.2f}, write {:.2f}\n", "seconds", seconds_read, seconds_diagram,
              watch.lap());
-  for (const std::string& path : arguments.outputs) fmt::print("{:<17} {}\n", "wrote", path);
-  return complete && proved ? 0 : static_cast<int>(ErrorCode::FaceRejected);
+  for (const std::string& path : written) fmt::print("{:<17} {}\n", "wrote", path);
+  const bool all = written.size() == arguments.outputs.size();
+  return all && complete && proved ? 0 : static_cast<int>(ErrorCode::FaceRejected);
 }
 
 }  // namespace geovor

@@ -7,6 +7,7 @@
 #include "pipeline/cell_sheet.h"
 #include "pipeline/edge_spline.h"
 #include "pipeline/joined_cells.h"
+#include "pipeline/merged_sets.h"
 
 namespace geovor {
 namespace {
@@ -66,12 +67,14 @@ class SheetWriter {
 
   void add_faces(CadSheet& out) {
     out.vertices = cells_.vertices;
+    merge_vertices();
     for (const JoinedCell& cell : joined_cells(cells_, outline_)) {
       SheetFace face;
       face.name = "site " + std::to_string(cell.site);
       for (const auto& loop : cell.loops) {
         face.loops.emplace_back();
         for (const ShiftedUse& one : loop) {
+          if (is_short(cells_.lines[one.use.line])) continue;
           face.loops.back().push_back(use_of(one.use, out));
           face.loops.back().back().shift = one.shift;
         }
@@ -81,6 +84,18 @@ class SheetWriter {
   }
 
  private:
+  /// One point for CAD programs: its two vertices are one, and the faces around leave it out.
+  static bool is_short(const SheetLine& line) {
+    return line.run >= 0 && without_doubles(line.uv, line.xyz).uv.size() < 2;
+  }
+
+  void merge_vertices() {
+    vertices_.resize(static_cast<int>(cells_.vertices.size()));
+    for (const SheetLine& line : cells_.lines) {
+      if (is_short(line)) vertices_.merge(line.from, line.to);
+    }
+  }
+
   SheetUse use_of(LineUse use, CadSheet& out) {
     const SheetLine& line = cells_.lines[use.line];
     if (line.run < 0) return stretch(line, out);
@@ -91,14 +106,9 @@ class SheetWriter {
 
   SheetEdge run(const SheetLine& line) const {
     const EdgeLine points = without_doubles(line.uv, line.xyz);
-    if (points.uv.size() < 2) {
-      throw Error(ErrorCode::FaceRejected,
-                  "an edge of the diagram is shorter than what CAD programs take for one point; leave STEP out, or "
-                  "move the sites near it");
-    }
     SurfaceCurve spline = spline_on_surface(outline_.surface(), points.uv, points.xyz, fit_);
     SheetEdge edge;
-    edge.from = line.from, edge.to = line.to;
+    edge.from = vertices_.find(line.from), edge.to = vertices_.find(line.to);
     edge.curve = std::move(spline.curve), edge.pcurve = std::move(spline.pcurve);
     return edge;
   }
@@ -112,7 +122,8 @@ class SheetWriter {
     const auto [at, is_new] = stretches_.try_emplace({first, lo}, static_cast<int>(out.edges.size()));
     if (is_new) {
       SheetEdge edge;
-      edge.from = reversed ? line.to : line.from, edge.to = reversed ? line.from : line.to;
+      edge.from = vertices_.find(reversed ? line.to : line.from);
+      edge.to = vertices_.find(reversed ? line.from : line.to);
       edge.range = {lo, std::max(line.t0, line.t1)};
       for (int s : {line.side, side.partner}) {
         if (s < 0) continue;
@@ -127,6 +138,7 @@ class SheetWriter {
   const FaceOutline& outline_;
   const CellSheet& cells_;
   SplineFit fit_;
+  MergedSets vertices_;
   std::map<int, int> runs_;
   std::map<std::pair<int, double>, int> stretches_;
 };
@@ -137,8 +149,9 @@ CadSheet cad_cells(const CadModel& model, const CadFace& face, const VoronoiDiag
   const FaceOutline outline(model, face, deflection);
   const CellSheet cells = sheet_of_cells(model, outline, diagram, deflection);
   if (!cells.problem.empty()) {
-    throw Error(ErrorCode::FaceRejected,
-                cells.problem + ", so that they can't be written as CAD faces; leave STEP out, or take other sites");
+    throw Error(
+        ErrorCode::FaceRejected,
+        cells.problem + ", so that the cells can't be written as CAD faces; more sites, or other ones, may mend it");
   }
   const SplineFit fit{kFitShare * diagram.tolerance, kGap};
   CadSheet sheet;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -218,7 +219,7 @@ class SheetBuilder {
           use = next(*use);
         }
         const bool closed = use && use->line == i && use->reversed == reversed;
-        if (!closed) give_up("the lines around a cell do not close");
+        if (!closed) give_up("the edges around the cell of site " + std::to_string(loop.site) + " do not close");
         loop.area = signed_area(loop.polygon);
         if (closed) loops_.push_back(std::move(loop));
       }
@@ -227,12 +228,22 @@ class SheetBuilder {
 
   void append(LineUse use, WalkedLoop& loop) {
     const int site = use.reversed ? right_[use.line] : left_[use.line];
-    if (site >= 0 && loop.site >= 0 && loop.site != site) give_up("a loop runs along the cells of two sites");
+    if (site >= 0 && loop.site >= 0 && loop.site != site) {
+      give_up("nothing divides the cells of sites " + std::to_string(std::min(site, loop.site)) + " and " +
+              std::to_string(std::max(site, loop.site)));
+    }
     if (site >= 0) loop.site = site;
     loop.uses.push_back(use);
     std::vector<Uv> uv = sheet_.lines[use.line].uv;
     if (use.reversed) std::reverse(uv.begin(), uv.end());
     loop.polygon.insert(loop.polygon.end(), uv.begin(), uv.end() - 1);
+  }
+
+  static std::string place_of(const WalkedLoop& loop) {
+    char text[80];
+    const Uv p = loop.polygon.front();
+    std::snprintf(text, sizeof text, " (near u = %.6g, v = %.6g)", p.u, p.v);
+    return text;
   }
 
   void give_up(const std::string& why) {
@@ -267,17 +278,20 @@ class SheetBuilder {
         if (mostly_inside(loops_[i].polygon, hole.polygon)) best = i;
       }
       if (best < 0) {
-        give_up("a hole lies in no cell");
+        give_up("a part of the border lies in no cell" + place_of(hole));
         continue;
       }
       cells[best].loops.push_back(hole.uses);
       if (cells[best].site < 0) cells[best].site = hole.site;
-      if (hole.site >= 0 && hole.site != cells[best].site) give_up("a hole lies in the cell of another site");
+      if (hole.site >= 0 && hole.site != cells[best].site) {
+        give_up("the cell of site " + std::to_string(hole.site) + " lies in that of site " +
+                std::to_string(cells[best].site) + ", and no edge divides them");
+      }
     }
     for (int i : outer) {
       if (cells[i].site < 0) cells[i].site = owner_of_border(loops_[i]);
       if (cells[i].site < 0)
-        give_up("a part of the face belongs to no cell");
+        give_up("a part of the face belongs to no cell" + place_of(loops_[i]));
       else
         sheet_.cells.push_back(std::move(cells[i]));
     }

@@ -71,6 +71,35 @@ class ProgramTest(unittest.TestCase):
         return json.loads((self.folder / name).read_text())
 
 
+def iges_of_spline(knots, poles):
+    """An IGES file of one polyhedral B-spline surface, of degree 1 both ways with the same knots, u running fastest."""
+    n = len(knots) - 1
+    numbers = [128, n, n, 1, 1, 0, 0, 1, 0, 0]
+    ends = [knots[0], *knots, knots[-1]]
+    numbers += [*map(float, ends + ends), *[1.0] * len(poles), *[float(x) for pole in poles for x in pole]]
+    numbers += [float(knots[0]), float(knots[-1])] * 2
+    words = [f"{x}" + ("," if i + 1 < len(numbers) else ";") for i, x in enumerate(numbers)]
+    lines = [""]
+    for word in words:
+        if len(lines[-1]) + len(word) > 64:
+            lines.append("")
+        lines[-1] += word
+    head = "1H,,1H;,4Hface,4Hface,4Htest,4Htest,32,38,6,308,15,4Hface,1.0,2,"
+    tail = "2HMM,1,0.01,15H20260101.000000,1E-06,10.0,4Htest,4Htest,11,0;"
+    text = f"{'test':72}S{1:7}\n{head:72}G{1:7}\n{tail:72}G{2:7}\n"
+    text += "".join(f"{v:8}" for v in (128, 1, 0, 0, 0, 0, 0, 0)) + f"{'00000000':>8}D{1:7}\n"
+    text += "".join(f"{v:8}" for v in (128, 0, 0, len(lines), 0)) + f"{'':24}{0:8}D{2:7}\n"
+    for i, line in enumerate(lines):
+        text += f"{line:64}{1:8}P{i + 1:7}\n"
+    return text + f"S{1:7}G{2:7}D{2:7}P{len(lines):7}{'':40}T{1:7}\n"
+
+
+def four_planes():
+    """A face on which four planes meet in a saddle's point, with 480 degrees around it: behind that point paths bend in
+    it, and no geodesic from before reaches what lies there. No diagram can be whole where two cells meet behind it."""
+    return iges_of_spline([-1, 0, 1], [(u, v, v * v - u * u) for v in (-1, 0, 1) for u in (-1, 0, 1)])
+
+
 def shared_file(test, name):
     """A file of the shared data beside the source tree. Without it the test is skipped, or fails where CI is set."""
     path = SHARED / name

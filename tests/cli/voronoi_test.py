@@ -6,7 +6,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from program import DONE, INTERRUPTED, LEAVES_FACE, PROGRAM, ProgramTest, sample
+from program import DONE, FACE_REJECTED, INTERRUPTED, LEAVES_FACE, PROGRAM, ProgramTest, four_planes, sample
 
 
 def distance(a, b):
@@ -134,6 +134,27 @@ class Voronoi(ProgramTest):
             self.assertLessEqual(claim["measured"], claim["bound"])
             self.assertIn(f"{claim['name']}: holds", printed)
         self.assertIn(certificate["result"], printed)
+
+    def test_a_certificate_that_does_not_hold_is_exit_code_3(self):
+        self.write("planes.igs", four_planes())
+        self.write("sites.csv", "u,v\n0.75,0.1\n-0.6,0.2\n")
+        done = self.run_program("voronoi", "planes.igs", "--sites", "sites.csv", "--certify", "-o", "out.json")
+        self.assertEqual(done.returncode, FACE_REJECTED)
+        certificate = self.read_json("out.json")["certificate"]
+        self.assertFalse(certificate["holds"])
+        failed = [claim["name"] for claim in certificate["claims"] if not claim["holds"]]
+        self.assertIn(f"geovor: planes.igs: Face1: the claim '{failed[0]}' of the certificate fails near u = ",
+                      done.stderr)
+        self.assertRegex(done.stdout, r"\ncertificate +not proved: ")
+
+    def test_what_can_not_be_cad_faces_is_written_in_other_forms(self):
+        self.write("planes.igs", four_planes())
+        self.write("sites.csv", "u,v\n0.75,0.1\n-0.6,0.2\n")
+        done = self.run_program("voronoi", "planes.igs", "--sites", "sites.csv", "-o", "out.step", "-o", "out.json")
+        self.assertEqual(done.returncode, FACE_REJECTED)
+        self.assertEqual(self.files(), ["out.json", "planes.igs", "sites.csv"])
+        self.assertRegex(done.stderr, r"(?m)^geovor: planes\.igs: Face1: out\.step: .*can't be written as CAD faces; .*$")
+        self.assertNotIn("wrote             out.step", done.stdout)
 
     def test_without_the_flag_there_is_no_certificate(self):
         self.assertNotIn("certificate", self.diagram("sphere.step", "--count", 2))

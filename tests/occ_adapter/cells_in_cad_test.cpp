@@ -189,6 +189,11 @@ TEST_F(CellsInCad, CellsThatRingATubeAreOneFaceEach) {
   expect_faces(sample("cylinder_tube.step"), 1, at({Xyz(10, 0, 10), Xyz(10, 0, 20)}), area);
 }
 
+// Two vertices are 1e-8 apart: one point for CAD programs, and the edge between them none.
+TEST_F(CellsInCad, AnEdgeShorterThanAPointIsLeftOut) {
+  expect_faces(sample("flat.step"), 1, at({Uv{1, 0}, Uv{-1, 0}, Uv{0, 1}, Uv{0, -1 - 1e-8}}), 36.0);
+}
+
 // STEP knows no periodic splines, so no face runs across the seam of one.
 TEST_F(CellsInCad, AcrossTheSeamOfASplineACellIsTwoFaces) {
   const TopoDS_Shape tube = test::read_by_occ(sample("cylinder_tube.step"));
