@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "geodesic/extended_state.h"
 #include "surface/tangent_frame.h"
 
 namespace geovor {
@@ -38,6 +39,17 @@ constexpr double kSlack = 0.02;
 // where the ray bends.
 constexpr double kOverlap = 0.1;
 
+// The integrator stops a little before a side on which the metric vanishes; this part of the last step before the stop
+// the jets still tell where the ray goes.
+constexpr double kBeforeStop = 1e-2;
+
+// So it is the side that stopped the ray: by the third power of the parameter a millionth of the length is a hundredth
+// of the domain's extents.
+constexpr double kBesideSide = 0.05;
+
+// Of the two parameters' directions.
+constexpr double kNoPlane = 1e-10;
+
 // A target that is more sample steps above the ray's surface than the first lies on another sheet of it, perhaps; more
 // than the second, certainly.
 constexpr double kPlain = 0.5;
@@ -69,6 +81,21 @@ UvBox rim_of(const Surface& surface, double beyond) {
 
 bool in_box(const Surface& surface, const UvBox& box, Uv p) {
   return (surface.u_period() || box.u.contains(p.u)) && (surface.v_period() || box.v.contains(p.v));
+}
+
+// Whether the metric vanishes on a side of the domain that is as near as that.
+bool beside_vanishing_side(const Surface& surface, Uv p) {
+  const UvBox d = surface.domain();
+  const auto vanishes = [&](Uv side) {
+    const SurfaceJet j = surface.jet(side);
+    return !(j.Su.cross(j.Sv).norm() > kNoPlane * std::max(j.Su.squaredNorm(), j.Sv.squaredNorm()));
+  };
+  const auto beside = [](double x, double end, double extent) { return std::abs(x - end) <= kBesideSide * extent; };
+  for (const double u : {d.u.lo, d.u.hi})
+    if (beside(p.u, u, d.u.length()) && vanishes({u, p.v})) return true;
+  for (const double v : {d.v.lo, d.v.hi})
+    if (beside(p.v, v, d.v.length()) && vanishes({p.u, v})) return true;
+  return false;
 }
 
 }  // namespace
@@ -107,6 +134,8 @@ class PolarAtlas::Builder {
   Ray follow(double t);
   bool done(const GeodesicIntegrator& path, const Sample& x) const;
   std::optional<Sample> sample(const GeodesicIntegrator& path, const Ray& ray) const;
+  GeodesicIntegrator path_at(double t) const;
+  bool end_where_stopped(Ray& ray, const GeodesicIntegrator& stopped) const;
   double apart_at(const Ray& ray, const Ray& next) const;
   void refine(int index, int next, int halvings);
 
@@ -143,16 +172,39 @@ bool PolarAtlas::Builder::done(const GeodesicIntegrator& path, const Sample& x) 
   return conjugate || too_far || x.s >= end || !in_box(surface_, rim_, path.state().p);
 }
 
-// A ray that is lost beyond the domain has left it for good, like one that has met the rim.
-PolarAtlas::Ray PolarAtlas::Builder::follow(double t) {
-  Ray ray;
-  ray.t = t;
+GeodesicIntegrator PolarAtlas::Builder::path_at(double t) const {
   TraceOptions options;
   options.tolerance = kRayTolerance;
   options.stop_at_domain = false;
   options.max_steps = 2 * kMostSamples;
+  return {surface_, from_, frame_.at_angle(t), kReach * atlas_.options_.length, options};
+}
+
+// A ray can't be followed onto a side on which the metric vanishes, or, far beyond the domain, to where its polynomials
+// run off. What lies between its last sample and the stop, the domain's own rim with it, is no less reached. Whether
+// the ray has ended there for good.
+bool PolarAtlas::Builder::end_where_stopped(Ray& ray, const GeodesicIntegrator& stopped) const {
+  const double last = ray.samples.back().s, stop = stopped.covered();
+  const double before = stop - kBeforeStop * (stop - last);
+  GeodesicIntegrator path = path_at(ray.t);
+  if (!(stop > last) || path.advance(before) != TraceStatus::Converged) return false;
+  auto x = sample(path, ray);
+  if (!x) return false;
+  const SpaceState end = extended(path.at(), path.jet(), stop - before);
+  if (!(end.S.allFinite() && end.tangent.allFinite() && end.normal.allFinite())) return false;
+  const Uv p = stopped.state().p;
+  x->s = stop, x->X = end.S, x->T = end.tangent, x->n = end.normal, x->y = end.y, x->dy = end.dy;
+  x->inside = in_box(surface_, surface_.domain(), p);
+  ray.samples.push_back(*x);
+  return !x->inside || beside_vanishing_side(surface_, p);
+}
+
+// A ray that is lost beyond the domain has left it for good, like one that has met the rim.
+PolarAtlas::Ray PolarAtlas::Builder::follow(double t) {
+  Ray ray;
+  ray.t = t;
   const double end = kReach * atlas_.options_.length;
-  GeodesicIntegrator path(surface_, from_, frame_.at_angle(t), end, options);
+  GeodesicIntegrator path = path_at(t);
   for (int i = 0; i < kMostSamples; ++i) {
     const auto x = sample(path, ray);
     if (!x) break;
@@ -161,7 +213,10 @@ PolarAtlas::Ray PolarAtlas::Builder::follow(double t) {
       ray.lost = false;
       break;
     }
-    if (path.advance(std::min(x->s + x->step, end)) != TraceStatus::Converged) break;
+    if (path.advance(std::min(x->s + x->step, end)) != TraceStatus::Converged) {
+      ray.lost = !end_where_stopped(ray, path);
+      break;
+    }
   }
   ray.lost = ray.lost && (ray.samples.empty() || ray.samples.back().inside);
   samples_ += static_cast<int>(ray.samples.size());
