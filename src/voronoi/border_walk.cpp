@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numeric/gauss_legendre.h"
+#include "numeric/worst_of.h"
 #include "surface/forms.h"
 
 namespace geovor {
@@ -60,6 +61,7 @@ class Walker {
   std::optional<SiteRay> last_;
   double angle_ = kFirstPart;  ///< under which the next part is to be seen
   double highest_term_ = 0.0;  ///< of the last part, see kHighestTerm
+  double run_back_ = 0.0;      ///< by which the angle has fallen since it last grew, as a width in space
   ChartPiece seen_;
 };
 
@@ -73,10 +75,14 @@ bool Walker::step_to(Uv m) {
   if (last_) {
     const double turn = wrap_angle(ray->polar.t - last_->polar.t);
     seen_.turn += turn;
-    seen_.back = std::max(seen_.back, -turn * std::abs(ray->y) / ray->polar.s);
+    const double back = -turn * std::abs(ray->y);
+    seen_.back = larger_of(seen_.back, back / ray->polar.s);
+    run_back_ = back > 0.0 ? run_back_ + back : 0.0;
+    seen_.hidden = larger_of(seen_.hidden, run_back_);
   }
-  seen_.least_y = std::min(seen_.least_y, ray->y / ray->polar.s);
-  seen_.shortest = seen_.shortest > 0.0 ? std::min(seen_.shortest, ray->polar.s) : ray->polar.s;
+  if (!(ray->polar.s <= seen_.middle.s)) seen_.middle = ray->polar;
+  seen_.least_y = smaller_of(seen_.least_y, ray->y / ray->polar.s);
+  seen_.shortest = seen_.shortest > 0.0 ? smaller_of(seen_.shortest, ray->polar.s) : ray->polar.s;
   last_ = ray;
   return true;
 }
@@ -109,12 +115,14 @@ void Walker::segment(const FaceBorder& border, int cycle, int k, Interval f) {
   for (double done = f.lo; done < f.hi;) {
     // Where y is small, angles change faster than the distance tells.
     const double off = last_ ? std::min(last_->polar.s, std::abs(last_->y)) : length;
-    const double part = std::min(f.hi - done, std::max(angle_ * off / length, kShortestPart));
+    const double wanted = angle_ * off / length;
+    const double part = std::min(f.hi - done, wanted > kShortestPart ? wanted : kShortestPart);
     const auto last = last_;
+    const double run_back = run_back_;
     const ChartPiece seen = seen_;
     const bool taken = take(border, cycle, k, {done, done + part});
     if (!(taken && highest_term_ <= kHighestTerm) && part > kShortestPart) {
-      last_ = last, seen_ = seen;
+      last_ = last, seen_ = seen, run_back_ = run_back;
       angle_ = 0.5 * std::min(angle_, part * length / off);
       continue;
     }
@@ -125,6 +133,11 @@ void Walker::segment(const FaceBorder& border, int cycle, int k, Interval f) {
     if (highest_term_ < kMuchLess * kHighestTerm) angle_ = std::min(2.0 * angle_, kLongestPart);
     done += part;
   }
+}
+
+/// Whether the place on the border is the site's own, as near as the border is known: there is no ray to it.
+bool is_site(const SiteRays& rays, const FaceBorder& border, int site, Uv m) {
+  return (border.xyz_of(m) - border.xyz_of(rays.site(site))).norm() <= border.domain().deflection();
 }
 
 double gap_between(const SiteRay& ray, const Polar& known) {
@@ -153,20 +166,26 @@ BorderWalk walk_border(const SiteRays& rays, const FaceBorder& border, const Vor
   ChartPiece& seen = walker.seen();
   seen.found = to > from;
   const auto leaving = known_at(diagram, piece.from_vertex, true);
-  if (const auto ray = rays.to(site, border.uv({cycle, from}), leaving)) walker.start_with(*ray);
-  if (walker.last()) seen.first = walker.last()->polar;
+  const Uv start = border.uv({cycle, from}), end = border.uv({cycle, to < segments ? to : to - segments});
+  if (const auto ray = rays.to(site, start, leaving)) {
+    walker.start_with(*ray);
+    seen.first = ray->polar;
+  } else if (!is_site(rays, border, site, start)) {
+    seen.found = false;
+  }
   for (double k = std::floor(from); k < to && seen.found; k += 1.0) {
     const Interval part = {std::max(from - k, 0.0), std::min(to - k, 1.0)};
     walker.segment(border, cycle, static_cast<int>(k) % segments, part);
   }
   BorderWalk out;
   auto arriving = known_at(diagram, piece.to_vertex, false);
-  if (seen.found && walker.step_to(border.uv({cycle, to < segments ? to : to - segments}))) {
+  if (seen.found && walker.step_to(end)) {
     if (!arriving && leaving == std::nullopt) arriving = seen.first;
     seen.last = walker.last()->polar;
     if (arriving && arriving->s > 0.0) out.arrival_gap = gap_between(*walker.last(), *arriving);
   } else if (walker.last()) {
-    seen.last = walker.last()->polar;  // the stretch ends in the site itself
+    seen.last = walker.last()->polar;
+    seen.found = seen.found && is_site(rays, border, site, end);
   }
   if (walker.last()) seen.last_y = walker.last()->y;
   if (!std::isfinite(seen.area)) seen.found = false;

@@ -16,6 +16,7 @@ struct CellChart {
   double turn = 0.0;               ///< of the loops around the site, counter-clockwise, corners included
   double back = 0.0;               ///< largest step clockwise along an edge (see ChartPiece)
   double corner_gap = 0.0;         ///< largest jump of the ray where one piece follows another, relative to the radius
+  double hidden = 0.0;             ///< widest part of the face's border that the cell has from behind (see ChartPiece)
   double least_y = 1.0;            ///< smallest y / radius along the border
   double nearest = 0.0;            ///< of the border's places that were looked at, to the site
   double conjugate_at = 0.0;       ///< on one ray to the border: first conjugate point, part of the radius; 0: none
@@ -26,8 +27,9 @@ struct DiagramCharts {
   std::vector<CellChart> cells;
 };
 
-/// Each ray is traced from its polar coordinates alone, once for each site that it belongs to. A cell without loops, a
-/// whole closed surface, is taken as far as the rays' first conjugate points.
+/// Each ray is traced from its polar coordinates alone, once for each site that it belongs to. The cell of the only
+/// site of a closed surface is taken as far as the rays' first conjugate points, which must be one point, less its
+/// holes: where none of its loops goes around the site.
 DiagramCharts chart_cells(const FaceDomain& domain, const VoronoiDiagram& diagram);
 
 }  // namespace geovor

@@ -83,6 +83,7 @@ class RaySearch {
   CellStart at_conjugate_point(double t, double clear, double s) const {
     const auto before = rays_.at(site_, {s * (1.0 - kOnePoint), t});
     if (!before) return {clear > 0.0 ? CellStart::OffFace : CellStart::NotFound, {}};
+    if (!domain_.contains(domain_.to_principal(before->uv))) return {CellStart::OffFace, {}};
     return {CellStart::AtPoint, {*before, *before}};
   }
 

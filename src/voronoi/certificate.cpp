@@ -2,14 +2,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <set>
 
+#include "voronoi/border_cover.h"
 #include "voronoi/cell_charts.h"
+#include "voronoi/claim.h"
 #include "voronoi/diagram_topology.h"
+#include "voronoi/path_checks.h"
+#include "voronoi/seam_check.h"
 #include "voronoi/site_ray.h"
+#include "voronoi/stored_places.h"
 
 namespace geovor {
 namespace {
@@ -36,58 +42,40 @@ constexpr double kPositive = 1e-9;
 
 using Offender = CertificateClaim::Offender;
 
-/// Collects measured values; keeps the largest, and the first that breaks the bound.
-class Claim {
- public:
-  Claim(const char* name, const char* statement, double bound) {
-    claim_.name = name, claim_.statement = statement, claim_.bound = bound;
-    claim_.holds = true;
-    claim_.measured = -std::numeric_limits<double>::infinity();
-  }
-
-  void measure(double value, Offender kind, int id, Uv uv, const char* why) {
-    if (!(value <= claim_.measured)) claim_.measured = value;
-    if (value <= claim_.bound || !claim_.holds) return;
-    claim_.holds = false;
-    claim_.offender = kind, claim_.id = id, claim_.uv = uv, claim_.why = why;
-  }
-
-  CertificateClaim done() {
-    if (std::isinf(claim_.measured) && claim_.holds) claim_.measured = std::min(0.0, claim_.bound);  // nothing to check
-    return claim_;
-  }
-
- private:
-  CertificateClaim claim_;
-};
-
 class Examiner {
  public:
   Examiner(const FaceDomain& domain, const VoronoiDiagram& diagram, const Area& face_area)
-      : domain_(domain), d_(diagram), face_area_(face_area) {}
+      : domain_(domain), border_(domain), d_(diagram), face_area_(face_area) {}
 
   Certificate examine();
 
  private:
   CertificateClaim topology() const;
+  CertificateClaim border() const;
   CertificateClaim radial_lengths() const;
   CertificateClaim places() const;
+  CertificateClaim corners() const;
   CertificateClaim smoothness() const;
   CertificateClaim sectors() const;
   CertificateClaim stars() const;
   CertificateClaim turns() const;
   CertificateClaim regularity() const;
   CertificateClaim areas() const;
+  CertificateClaim warnings() const;
+  void find_hidden();
+  bool measured() const;
   void trace_vertices();
   double missing_turn(int cell) const;
   std::string summary(const Certificate& certificate) const;
   Uv site(int cell) const { return d_.sites[cell].uv; }
 
   const FaceDomain& domain_;
+  FaceBorder border_;
   const VoronoiDiagram& d_;
   Area face_area_;
   DiagramCharts charts_;
   std::vector<std::vector<RayEnd>> at_vertices_;
+  std::vector<int> hidden_;  ///< sites from which rays leave the face
 };
 
 void Examiner::trace_vertices() {
@@ -99,19 +87,26 @@ void Examiner::trace_vertices() {
   }
 }
 
+CertificateClaim with_fault(CertificateClaim claim, const std::optional<TopologyFault>& fault) {
+  if (!fault) return claim;
+  claim.holds = false, claim.measured = 1.0, claim.why = fault->text;
+  claim.offender = fault->vertex >= 0 ? Offender::Vertex
+                   : fault->edge >= 0 ? Offender::Edge
+                   : fault->cell >= 0 ? Offender::Cell
+                                      : Offender::Diagram;
+  claim.id = std::max({fault->vertex, fault->edge, fault->cell});
+  return claim;
+}
+
 CertificateClaim Examiner::topology() const {
-  Claim claim("topology", "every edge is walked once in each direction, loops close, vertices and edges agree", 0.0);
-  if (const auto fault = first_topology_fault(d_)) {
-    CertificateClaim broken = claim.done();
-    broken.holds = false, broken.measured = 1.0, broken.why = fault->text;
-    broken.offender = fault->vertex >= 0 ? Offender::Vertex
-                      : fault->edge >= 0 ? Offender::Edge
-                      : fault->cell >= 0 ? Offender::Cell
-                                         : Offender::Diagram;
-    broken.id = std::max({fault->vertex, fault->edge, fault->cell});
-    return broken;
-  }
-  return claim.done();
+  const Claim claim("topology", "every edge is walked once in each direction, loops close, vertices and edges agree",
+                    0.0);
+  return with_fault(claim.done(), first_topology_fault(d_));
+}
+
+CertificateClaim Examiner::border() const {
+  const Claim claim("border", "the cells' stretches of border are the face's border, each part of it once", 0.0);
+  return with_fault(claim.done(), first_border_fault(border_, d_));
 }
 
 /// The spread of the radial lengths at a vertex, relative to the radius.
@@ -122,7 +117,7 @@ double spread_at(const DiagramVertex& v, const std::vector<RayEnd>& rays) {
     if (!std::isfinite(length)) return std::numeric_limits<double>::infinity();
     lo = std::min(lo, length), hi = std::max(hi, length);
   }
-  return std::max(0.0, hi - lo - kCoordinateRounding * v.xyz.lpNorm<Eigen::Infinity>()) / v.radius;
+  return larger_of(0.0, hi - lo - kCoordinateRounding * v.xyz.lpNorm<Eigen::Infinity>()) / v.radius;
 }
 
 CertificateClaim Examiner::radial_lengths() const {
@@ -146,7 +141,16 @@ CertificateClaim Examiner::radial_lengths() const {
 }
 
 CertificateClaim Examiner::places() const {
-  Claim claim("places", "the rays from both sides end at the stored points (relative to the radius)", kSamePlace);
+  Claim claim("places", "the rays from all sides end at the stored points and vertices (relative to the radius)",
+              kSamePlace);
+  for (std::size_t i = 0; i < d_.vertices.size(); ++i) {
+    const DiagramVertex& v = d_.vertices[i];
+    double off = 0.0;
+    for (const RayEnd& ray : at_vertices_[i]) off = larger_of(off, (ray.x - v.xyz).norm());
+    if (v.on_boundary) off = larger_of(off, (border_.xyz({v.border_cycle, v.border_parameter}) - v.xyz).norm());
+    claim.measure(off / v.radius, Offender::Vertex, static_cast<int>(i), v.uv,
+                  "a ray, or the border, misses the vertex");
+  }
   for (std::size_t i = 0; i < charts_.edges.size(); ++i) {
     const EdgeWalk& walk = charts_.edges[i];
     const bool followed = walk.seen[0].found && walk.seen[1].found;
@@ -221,10 +225,42 @@ CertificateClaim Examiner::turns() const {
   Claim claim("one turn", "the loops of each cell go around its site once and close (radians off)", kOneTurn);
   for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i) {
     claim.measure(missing_turn(i), Offender::Cell, i, site(i), "the loops do not go around the site once");
-    // In the unit of the claim: a jump of the ray beyond its bound is as bad as a whole turn.
-    if (!(charts_.cells[i].corner_gap <= kCornersMeet))
-      claim.measure(kTwoPi, Offender::Cell, i, site(i), "the ray jumps where one piece of the border follows another");
   }
+  return claim.done();
+}
+
+/// How far an edge's end lies from its vertex, in space and as both sites see it, relative to the radius.
+double gap_at_end(const DiagramVertex& v, const std::vector<RayEnd>& rays, std::size_t spoke, bool at_end,
+                  const EdgePoint& end) {
+  const std::size_t right = spoke, left = (spoke + 1) % v.sites.size();
+  const std::array<std::size_t, 2> generator = {at_end ? right : left, at_end ? left : right};
+  double off = larger_of((end.xyz - v.xyz).norm(), std::abs(end.radius - v.radius));
+  for (int side = 0; side < 2; ++side) {
+    const double t = side == 0 ? end.left_angle : end.right_angle;
+    const std::size_t i = generator[side];
+    off = larger_of(off, std::abs(wrap_angle(t - v.angles[i]) * rays[i].y));
+  }
+  return off / v.radius;
+}
+
+// A jump of the rays around a cell is seen in its chart; where a vertex is not what its edges end in, here.
+CertificateClaim Examiner::corners() const {
+  Claim claim("corners",
+              "edges end in their vertices, by the same rays, and around each cell the ray goes on where one piece of "
+              "the border follows another (relative to the radius)",
+              kCornersMeet);
+  for (std::size_t i = 0; i < d_.vertices.size(); ++i) {
+    const DiagramVertex& v = d_.vertices[i];
+    for (std::size_t k = 0; k < v.spokes.size(); ++k) {
+      const auto& points = d_.edges[v.spokes[k].edge].points;
+      const bool at_end = v.spokes[k].at_end;
+      claim.measure(gap_at_end(v, at_vertices_[i], k, at_end, at_end ? points.back() : points.front()),
+                    Offender::Vertex, static_cast<int>(i), v.uv, "an edge ends beside it");
+    }
+  }
+  for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i)
+    claim.measure(charts_.cells[i].corner_gap, Offender::Cell, i, site(i),
+                  "the ray jumps where one piece of the border follows another");
   return claim.done();
 }
 
@@ -242,19 +278,77 @@ CertificateClaim Examiner::regularity() const {
   return claim.done();
 }
 
+/// Of the polyline in space.
+double length_of(const DiagramEdge& e) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < e.points.size(); ++i) length += (e.points[i].xyz - e.points[i - 1].xyz).norm();
+  return length;
+}
+
 CertificateClaim Examiner::areas() const {
-  const double slack = face_area_.error / face_area_.value;
-  Claim claim("areas", "the polar areas of the cells are positive and add up to the face's (relative difference)",
-              kAreasAddUp + slack);
+  const double value = face_area_.value, error = face_area_.error / value;
+  Claim claim("areas",
+              "the polar areas of the cells are positive and add up to the face's, which is known as well; what the "
+              "diagram says of areas and lengths is so (relative difference)",
+              kAreasAddUp + (error <= kAreasAddUp ? error : 0.0));
+  const double inf = std::numeric_limits<double>::infinity();
+  if (!(value > 0.0 && error >= 0.0 && error <= kAreasAddUp))
+    claim.measure(inf, Offender::Diagram, -1, Uv{}, "the face's own area is not known well enough");
   double sum = 0.0;
+  const bool stored = measured();
   for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i) {
     const double area = charts_.cells[i].area;
     sum += area;
-    if (!(area > 0.0))
-      claim.measure(std::numeric_limits<double>::infinity(), Offender::Cell, i, site(i), "its area is not positive");
+    if (!(area > 0.0)) claim.measure(inf, Offender::Cell, i, site(i), "its area is not positive");
+    if (stored)
+      claim.measure(std::abs(d_.cells[i].area - area) / value, Offender::Cell, i, site(i), "its area is another one");
   }
-  claim.measure(std::abs(sum - face_area_.value) / face_area_.value, Offender::Diagram, -1, Uv{},
-                "the cells do not add up to the face");
+  for (int i = 0; i < static_cast<int>(d_.edges.size()); ++i) {
+    const double length = length_of(d_.edges[i]);
+    claim.measure(std::abs(d_.edges[i].length - length) / length, Offender::Edge, i, d_.edges[i].points.front().uv,
+                  "its length is another one");
+  }
+  claim.measure(std::abs(sum - value) / value, Offender::Diagram, -1, Uv{}, "the cells do not add up to the face");
+  return claim.done();
+}
+
+/// Without areas a diagram was not measured, nor searched for paths that leave the face.
+bool Examiner::measured() const {
+  return std::any_of(d_.cells.begin(), d_.cells.end(), [](const DiagramCell& cell) { return cell.area != 0.0; });
+}
+
+// A cell is a star of the surface continued. A ray to one of its places that leaves the face comes back through a
+// stretch of border that belongs to the cell too and turns its back on the site: along it the angle falls. Rays that
+// leave by less than the border's deflection, to the side, are not told from rays along it.
+void Examiner::find_hidden() {
+  for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i)
+    if (!(charts_.cells[i].hidden <= domain_.deflection())) hidden_.push_back(i);
+}
+
+// What a warning takes no notice of (path_checks.h) need not be warned of, though it is not covered.
+CertificateClaim Examiner::warnings() const {
+  Claim claim("warnings",
+              "the diagram, if it was measured, warns of sites whose paths leave the face, and of seams taken for its "
+              "border (how many of them it does not name)",
+              0.0);
+  const auto warned = [&](const char* kind, const auto& of_it) {
+    return std::any_of(d_.warnings.begin(), d_.warnings.end(),
+                       [&](const DiagramWarning& w) { return w.kind == kind && of_it(w); });
+  };
+  double missing = 0.0;
+  for (const Uv seam : seams_taken_for_border(domain_, border_)) {
+    const Uv uv = domain_.to_principal(seam);
+    if (!warned("seam_is_border", [&](const DiagramWarning& w) { return w.uv == uv; }))
+      claim.measure(++missing, Offender::Diagram, -1, uv, "a seam is taken for a border, and no warning says so");
+  }
+  for (const int i : hidden_) {
+    const auto names_it = [&](const DiagramWarning& w) {
+      return std::find(w.sites.begin(), w.sites.end(), i) != w.sites.end();
+    };
+    if (!measured() || warned("path_leaves_face", names_it)) continue;
+    if (!paths_that_leave(domain_, d_, i).empty())
+      claim.measure(++missing, Offender::Cell, i, site(i), "its paths leave the face, and no warning says so");
+  }
   return claim.done();
 }
 
@@ -277,7 +371,9 @@ std::string Examiner::summary(const Certificate& certificate) const {
     if (c.name == "radial lengths") error = c.measured;
   std::string text = std::string("proved: every point of a cell is nearest to the cell's site, up to ") +
                      digits(error) + " of the distance for each edge crossed";
-  if (certificate.not_covered.empty()) return text + "; all shortest paths to it stay in the face";
+  if (certificate.not_covered.empty())
+    return text + "; all shortest paths to it stay in the face, up to " + digits(domain_.deflection()) +
+           " beside its border";
   return text + ", distances being those of the surface; paths within the face may differ for " +
          std::to_string(certificate.not_covered.size()) + " of " + std::to_string(d_.sites.size()) +
          " sites, whose rays leave the face";
@@ -285,18 +381,25 @@ std::string Examiner::summary(const Certificate& certificate) const {
 
 Certificate Examiner::examine() {
   Certificate certificate;
-  certificate.claims.push_back(topology());
+  const auto claim = [&](CertificateClaim c) {
+    certificate.claims.push_back(std::move(c));
+    return certificate.claims.back().holds;
+  };
   std::set<int> leaving;
   for (const DiagramWarning& w : d_.warnings)
     if (w.kind == "path_leaves_face") leaving.insert(w.sites.begin(), w.sites.end());
-  certificate.not_covered.assign(leaving.begin(), leaving.end());
-  if (certificate.claims.back().holds) {  // else there is nothing that could be walked along
+  // Where one of these fails there is nothing that could be walked along.
+  if (claim(all_numbers_finite(d_)) && claim(topology()) && claim(border())) {
     charts_ = chart_cells(domain_, d_);
     trace_vertices();
+    find_hidden();
+    leaving.insert(hidden_.begin(), hidden_.end());
     for (const CertificateClaim& c :
-         {radial_lengths(), places(), smoothness(), sectors(), stars(), turns(), regularity(), areas()})
-      certificate.claims.push_back(c);
+         {radial_lengths(), places(), places_are_of_parameters(domain_.surface(), d_), all_in_the_face(domain_, d_),
+          smoothness(), sectors(), stars(), turns(), corners(), regularity(), warnings(), areas()})
+      claim(c);
   }
+  certificate.not_covered.assign(leaving.begin(), leaving.end());
   certificate.result = summary(certificate);
   return certificate;
 }

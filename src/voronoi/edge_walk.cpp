@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "numeric/gauss_legendre.h"
+#include "numeric/worst_of.h"
 #include "voronoi/bisector.h"
 #include "voronoi/site_ray.h"
 
@@ -81,7 +82,7 @@ class Walker {
   Station middle(const Station& a, const Station& b, double h) const;
   bool correct(Station& m, const Xyz& along, double h) const;
   void add_area(const Station& a, const Station& m, const Station& b, double h);
-  void note_turn(const Station& a, const Station& b);
+  void note_turn(const Station& a, const Station& b, bool from_free_end, bool to_free_end);
   void look_between(const Station& a, const Station& b);
   double gap_of(const Station& s, const Xyz& place) const;
   void finish();
@@ -133,15 +134,15 @@ void Walker::complete(Station& s) const {
 /// Difference of the two radial lengths at a place, relative to the radius.
 double Walker::gap_of(const Station& s, const Xyz& place) const {
   const double gap = std::abs(distance_beside(s.rays[0], place) - distance_beside(s.rays[1], place));
-  return std::max(0.0, gap - kCoordinateRounding * place.lpNorm<Eigen::Infinity>()) / s.radius();
+  return larger_of(0.0, gap - kCoordinateRounding * place.lpNorm<Eigen::Infinity>()) / s.radius();
 }
 
 void Walker::note_stored(const EdgePoint& p, const Station& s) {
-  const double off = std::max((s.rays[0].x - p.xyz).norm(), (s.rays[1].x - p.xyz).norm()) / s.radius();
+  const double off = larger_of((s.rays[0].x - p.xyz).norm(), (s.rays[1].x - p.xyz).norm()) / s.radius();
   const double gap = gap_of(s, p.xyz);
-  if (gap > worst_) worst_ = gap, out_.worst = p.uv;
-  out_.radial_gap = std::max(out_.radial_gap, gap);
-  out_.place_gap = std::max(out_.place_gap, off);
+  if (!(gap <= worst_)) worst_ = gap, out_.worst = p.uv;
+  out_.radial_gap = larger_of(out_.radial_gap, gap);
+  out_.place_gap = larger_of(out_.place_gap, off);
 }
 
 /// Arc length of a cubic arc with these end tangents, to the fourth order in its bend.
@@ -208,7 +209,7 @@ void Walker::go(const Station& a, const Station& b, int depth) {
       return;
     }
   }
-  out_.jump = std::max(out_.jump, std::isfinite(gap) ? gap : 1.0);
+  out_.jump = larger_of(out_.jump, gap);
   add_area(a, m, b, h);
 }
 
@@ -227,18 +228,18 @@ void Walker::add_area(const Station& a, const Station& m, const Station& b, doub
   }
 }
 
-void Walker::note_turn(const Station& a, const Station& b) {
+void Walker::note_turn(const Station& a, const Station& b, bool from_free_end, bool to_free_end) {
   for (int side = 0; side < 2; ++side) {
     ChartPiece& seen = out_.seen[side];
     const RayEnd &from = a.rays[side], &to = b.rays[side];
     const double turn = (side == 0 ? 1.0 : -1.0) * wrap_angle(to.polar.t - from.polar.t);
     seen.turn += turn;
-    seen.back = std::max(seen.back, -turn * std::abs(to.y) / to.polar.s);
+    seen.back = larger_of(seen.back, -turn * std::abs(to.y) / to.polar.s);
     for (const RayEnd* ray : {&from, &to}) {
-      seen.shortest = seen.shortest > 0.0 ? std::min(seen.shortest, ray->polar.s) : ray->polar.s;
+      seen.shortest = seen.shortest > 0.0 ? smaller_of(seen.shortest, ray->polar.s) : ray->polar.s;
     }
-    if (a.regular) seen.least_y = std::min(seen.least_y, from.y / from.polar.s);
-    if (b.regular) seen.least_y = std::min(seen.least_y, to.y / to.polar.s);
+    if (!from_free_end) seen.least_y = smaller_of(seen.least_y, from.y / from.polar.s);
+    if (!to_free_end) seen.least_y = smaller_of(seen.least_y, to.y / to.polar.s);
   }
 }
 
@@ -276,8 +277,7 @@ void Walker::look_between(const Station& a, const Station& b) {
     if (apart <= kSettled || !correct(m, along, h)) break;
     m = at(m.rays[0].polar, m.rays[1].polar);
   }
-  const double gap = found(m) ? gap_of(m, 0.5 * (m.rays[0].x + m.rays[1].x)) : 1.0;
-  out_.gap_between = std::isfinite(gap) ? gap : 1.0;
+  out_.gap_between = found(m) ? gap_of(m, 0.5 * (m.rays[0].x + m.rays[1].x)) : 1.0;
 }
 
 void Walker::finish() {
@@ -287,6 +287,8 @@ void Walker::finish() {
     const EdgePoint &p = edge_.points.front(), &q = edge_.points.back();
     seen.first = {p.radius, side == 0 ? p.left_angle : p.right_angle};
     seen.last = {q.radius, side == 0 ? q.left_angle : q.right_angle};
+    const EdgePoint& m = edge_.points[edge_.points.size() / 2];
+    seen.middle = {m.radius, side == 0 ? m.left_angle : m.right_angle};
   }
   std::swap(out_.seen[1].first, out_.seen[1].last);
 }
@@ -297,7 +299,8 @@ void Walker::stretch(const Station& a, const Station& b, bool to_free_end) {
     go_to_free_end(a, b);
     return;
   }
-  if (way.norm() > kSeen * a.radius()) out_.left_is_left = out_.left_is_left && (a.tangent + b.tangent).dot(way) >= 0.0;
+  if (!(way.norm() <= kSeen * a.radius()))
+    out_.left_is_left = out_.left_is_left && (a.tangent + b.tangent).dot(way) >= 0.0;
   if (!looked_between_) look_between(a, b);
   looked_between_ = true;
   go(a, b, 0);
@@ -335,9 +338,10 @@ EdgeWalk Walker::walk() {
     complete_ = found(next);
     if (!complete_) break;
     note_stored(points[i], next);
-    note_turn(last, next);
+    const bool from_free_end = i == 1 && free_end(edge_.from), to_free_end = i + 1 == count && free_end(edge_.to);
+    note_turn(last, next, from_free_end, to_free_end);
     if (end) {
-      stretch(start, next, (i == 1 && free_end(edge_.from)) || (i + 1 == count && free_end(edge_.to)));
+      stretch(start, next, from_free_end || to_free_end);
       start = next;
     }
     last = next;

@@ -18,6 +18,10 @@ struct ChartPiece {
   double back = 0.0;     ///< largest step clockwise between places looked at: its width in space over the radius
   double least_y = 1.0;  ///< smallest y / radius, free ends of cut loci left out
   double shortest = 0.0;
+  /// Width in space, to the side seen from the site, of the widest run along which the angle falls: what of a stretch
+  /// of the face's border is hidden, so that rays reach it from beyond the face.
+  double hidden = 0.0;
+  Polar middle;  ///< of a place that is neither end; of border: the farthest one
 };
 
 struct EdgeWalk {

@@ -175,6 +175,7 @@ std::optional<SiteRay> NearbySites::settle(const Query& q, int site, const Atlas
 // Hits beside a geodesic that is at hand already are not shot at.
 void NearbySites::add_searched(const Query& q, int site, const std::vector<SiteRay>& known,
                                std::vector<SiteRay>& found) const {
+  known_[site].searched = std::max(known_[site].searched, q.limit);
   std::vector<SiteRay> settled;
   std::copy_if(known.begin(), known.end(), std::back_inserter(settled),
                [site](const SiteRay& r) { return r.site == site; });
@@ -244,6 +245,11 @@ std::vector<SiteRay> NearbySites::nearest(Uv m) const {
   }
   const double way = some_way(m, x);
   return way < kInf ? tied_within((1.0 + 2.0 * kTie) * way, m) : std::vector<SiteRay>{};
+}
+
+bool NearbySites::complete_as_asked(int site, double limit) const {
+  const double asked = std::min(limit, known_[site].searched);
+  return !(asked > 0.0) || complete_to(site, asked);
 }
 
 bool NearbySites::complete_to(int site, double limit) const {

@@ -49,6 +49,10 @@ class NearbySites {
   /// round the site was lost, or where from something that was found no geodesic could be computed.
   bool complete_to(int site, double limit) const;
 
+  /// The same for what was asked so far: of queries about greater lengths than `limit` only that part counts. Computes
+  /// nothing anew.
+  bool complete_as_asked(int site, double limit) const;
+
   /// Whether the curvature is known to allow no two geodesics shorter than `limit` from the site to one point.
   bool unique_to(int site, double limit) const;
 
@@ -61,6 +65,7 @@ class NearbySites {
   struct Knowledge {
     double certain = 0.0, open = std::numeric_limits<double>::infinity();
     double doubtful = std::numeric_limits<double>::infinity();  ///< from here on something may be missing
+    double searched = 0.0;                                      ///< the longest limit of a search all round
   };
   struct Query {
     Uv m;

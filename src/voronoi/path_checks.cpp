@@ -119,6 +119,34 @@ DiagramWarning leaves_face(int site, const Excursion& e) {
               back + "; distances are those of the surface without its trims"};
 }
 
+// A cell is a star of the continued surface. A path to a point of it that leaves the face comes back, before that
+// point, through a piece of border that belongs to the cell as well and turns its back on the site: along it, with the
+// face to the left, the angle falls. So the cell's stretches of border tell all, and cells inside the face cost
+// nothing.
+void warn_of_piece(const FaceDomain& domain, const SiteRays& rays, const VoronoiDiagram& diagram, int site,
+                   const CellPiece& piece, std::vector<DiagramWarning>& warnings) {
+  BorderView view = view_of_border(rays, diagram, site, piece);
+  if (piece.from_vertex == piece.to_vertex) begin_in_front(view);
+  if (!view.complete) {
+    warnings.push_back({"unresolved",
+                        {site},
+                        piece.border_uv.front(),
+                        "to a part of the border that starts here no geodesic was found: whether paths to it leave the "
+                        "face is not known"});
+  }
+  for (const HiddenRun run : hidden_runs(view, domain.deflection())) {
+    const auto found = longest_excursion(domain, rays.site(site), view, run);
+    if (found) warnings.push_back(leaves_face(site, *found));
+  }
+}
+
+void warn_of_cell(const FaceDomain& domain, const SiteRays& rays, const VoronoiDiagram& diagram,
+                  const DiagramCell& cell, std::vector<DiagramWarning>& warnings) {
+  for (const auto& loop : cell.loops)
+    for (const CellPiece& piece : loop)
+      if (piece.edge < 0) warn_of_piece(domain, rays, diagram, cell.site, piece, warnings);
+}
+
 }  // namespace
 
 void recompute_residuals(const Surface& surface, VoronoiDiagram& diagram) {
@@ -128,33 +156,21 @@ void recompute_residuals(const Surface& surface, VoronoiDiagram& diagram) {
   for (DiagramVertex& v : diagram.vertices) v.residual = vertex_residual(rays, v);
 }
 
-// A cell is a star of the continued surface. A path to a point of it that leaves the face comes back, before that
-// point, through a piece of border that belongs to the cell as well and turns its back on the site: along it, with the
-// face to the left, the angle falls. So the cell's stretches of border tell all, and cells inside the face cost
-// nothing.
 void warn_of_paths_that_leave(const FaceDomain& domain, VoronoiDiagram& diagram) {
   const std::vector<Uv> sites = places_of_sites(diagram);
   const SiteRays rays(domain.surface(), sites);
-  for (const DiagramCell& cell : diagram.cells) {
-    for (const auto& loop : cell.loops) {
-      for (const CellPiece& piece : loop) {
-        if (piece.edge >= 0) continue;
-        BorderView view = view_of_border(rays, diagram, cell.site, piece);
-        if (piece.from_vertex == piece.to_vertex) begin_in_front(view);
-        if (!view.complete) {
-          diagram.warnings.push_back({"unresolved",
-                                      {cell.site},
-                                      piece.border_uv.front(),
-                                      "to a part of the border that starts here no geodesic was found: whether paths "
-                                      "to it leave the face is not known"});
-        }
-        for (const HiddenRun run : hidden_runs(view, domain.deflection())) {
-          const auto found = longest_excursion(domain, sites[cell.site], view, run);
-          if (found) diagram.warnings.push_back(leaves_face(cell.site, *found));
-        }
-      }
-    }
-  }
+  std::vector<DiagramWarning> warnings;
+  for (const DiagramCell& cell : diagram.cells) warn_of_cell(domain, rays, diagram, cell, warnings);
+  diagram.warnings.insert(diagram.warnings.end(), warnings.begin(), warnings.end());
+}
+
+std::vector<DiagramWarning> paths_that_leave(const FaceDomain& domain, const VoronoiDiagram& diagram, int site) {
+  const std::vector<Uv> sites = places_of_sites(diagram);
+  const SiteRays rays(domain.surface(), sites);
+  std::vector<DiagramWarning> warnings;
+  warn_of_cell(domain, rays, diagram, diagram.cells[site], warnings);
+  std::erase_if(warnings, [](const DiagramWarning& w) { return w.kind != "path_leaves_face"; });
+  return warnings;
 }
 
 }  // namespace geovor

@@ -17,4 +17,7 @@ void recompute_residuals(const Surface& surface, VoronoiDiagram& diagram);
 /// found.
 void warn_of_paths_that_leave(const FaceDomain& domain, VoronoiDiagram& diagram);
 
+/// The warnings of that kind for one site.
+std::vector<DiagramWarning> paths_that_leave(const FaceDomain& domain, const VoronoiDiagram& diagram, int site);
+
 }  // namespace geovor

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brep/nested_boxes.h"
+
 namespace geovor {
 namespace {
 
@@ -18,6 +20,18 @@ constexpr int kRefinements = 4;
 struct Part {
   BorderPlace start;
   Xyz a, b;
+  double chord() const { return (b - a).norm(); }
+  Xyz middle() const { return 0.5 * (a + b); }
+};
+
+/// The places of space for which a part is looked at: about its middle, as far as it is long.
+struct Surroundings {
+  Xyz lower, upper;
+  static Surroundings of(const Part& part) {
+    return {part.middle().array() - part.chord(), part.middle().array() + part.chord()};
+  }
+  void include(const Surroundings& other) { lower = lower.cwiseMin(other.lower), upper = upper.cwiseMax(other.upper); }
+  bool hold(const Xyz& x) const { return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all(); }
 };
 
 std::vector<Part> parts_of(const FaceBorder& border) {
@@ -48,15 +62,16 @@ double distance_to(const FaceBorder& border, const Part& part, const Xyz& x) {
 
 /// Whether another stretch of the border lies in the same place. Neighbours touch at their ends only, and what is
 /// looked at is a middle.
-bool lies_twice(const FaceBorder& border, const std::vector<Part>& parts, size_t self, const Xyz& middle,
-                double tolerance) {
-  for (size_t i = 0; i < parts.size(); ++i) {
-    const Xyz &a = parts[i].a, &b = parts[i].b;
-    const double chord = (b - a).norm();
-    if (i == self || !(chord > 0.0) || !((0.5 * (a + b) - middle).norm() < chord)) continue;
-    if (distance_to(border, parts[i], middle) <= tolerance) return true;
-  }
-  return false;
+bool lies_twice(const FaceBorder& border, const std::vector<Part>& parts, const NestedBoxes<Surroundings>& tree,
+                size_t self, const Xyz& middle, double tolerance) {
+  bool twice = false;
+  tree.walk([&](const Surroundings& box) { return !twice && box.hold(middle); },
+            [&](int i) {
+              const Part& part = parts[i];
+              if (static_cast<size_t>(i) == self || !((part.middle() - middle).norm() < part.chord())) return;
+              twice = twice || distance_to(border, part, middle) <= tolerance;
+            });
+  return twice;
 }
 
 }  // namespace
@@ -64,13 +79,17 @@ bool lies_twice(const FaceBorder& border, const std::vector<Part>& parts, size_t
 std::vector<Uv> seams_taken_for_border(const FaceDomain& domain, const FaceBorder& border) {
   const double tolerance = kDeflections * domain.deflection();
   const std::vector<Part> parts = parts_of(border);
+  std::vector<Surroundings> boxes;
+  for (const Part& part : parts) boxes.push_back(Surroundings::of(part));
+  const NestedBoxes<Surroundings> tree(boxes);
   std::vector<Uv> seams;
   int found_on = -1;
   for (size_t i = 0; i < parts.size(); ++i) {
     const BorderPlace middle{parts[i].start.cycle, parts[i].start.parameter + 0.5};
-    if (middle.cycle == found_on || !((parts[i].b - parts[i].a).norm() > kTooShort * tolerance)) continue;
+    if (middle.cycle == found_on || !(parts[i].chord() > kTooShort * tolerance)) continue;
     const Uv uv = border.uv(middle);
-    if (!(domain.distance_to_border(uv) > tolerance) && !lies_twice(border, parts, i, border.xyz_of(uv), tolerance)) {
+    if (!(domain.distance_to_border(uv) > tolerance) &&
+        !lies_twice(border, parts, tree, i, border.xyz_of(uv), tolerance)) {
       continue;
     }
     found_on = middle.cycle;

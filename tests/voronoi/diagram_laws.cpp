@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "brep/face_area.h"
 #include "geodesic/distance.h"
+#include "numeric/worst_of.h"
 #include "voronoi/cell_charts.h"
 #include "voronoi/certificate.h"
 
@@ -101,10 +103,14 @@ int euler_number(const FaceDomain& domain, const VoronoiDiagram& d) {
   int count = static_cast<int>(d.vertices.size());
   for (const DiagramEdge& e : d.edges) count -= e.closed() ? 0 : 1;
   // A cell with one loop is a disk; of several, the charts tell which go around holes.
-  const bool disks = std::all_of(d.cells.begin(), d.cells.end(), [](const auto& c) { return c.loops.size() == 1; });
+  const bool disks = d.sites.size() > 1 &&
+                     std::all_of(d.cells.begin(), d.cells.end(), [](const auto& c) { return c.loops.size() == 1; });
   const DiagramCharts charts = disks ? DiagramCharts{} : chart_cells(domain, d);
   for (const DiagramCell& cell : d.cells) {
-    if (cell.loops.empty()) count += d.vertices.empty() ? 2 : 1;  // a closed surface; without the antipode
+    const bool antipode =
+        std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.spokes.empty(); });
+    if (cell.loops.empty() && !antipode) count += 2;  // a closed surface
+    if (d.sites.size() == 1 && antipode) ++count;     // the same without a point
     if (disks) ++count;
     if (!disks) {
       for (const double area : charts.cells[cell.site].loop_areas) count += area > 0.0 ? 1 : -1;
@@ -123,13 +129,16 @@ double worst_mismatch(const Surface& surface, const VoronoiDiagram& d) {
     if (c.status != ConnectStatus::Converged || std::abs(c.length - radius) > 1e-3 * radius) {
       c = connect(surface, d.sites[site].uv, m, Polar{radius, angle});  // another geodesic of the same site
     }
-    worst = std::max(worst, std::abs(c.length - radius) / radius);
+    const bool found = c.status == ConnectStatus::Converged && std::isfinite(c.length);
+    worst = larger_of(worst, found ? std::abs(c.length - radius) / radius : std::numeric_limits<double>::infinity());
   };
+  // The free end of a cut locus is conjugate to its site: there is no Newton's method for a geodesic to it.
   for (const DiagramVertex& v : d.vertices) {
-    for (size_t i = 0; i < v.sites.size(); ++i) check(v.uv, v.sites[i], v.radius, v.angles[i]);
+    for (size_t i = 0; i < v.sites.size() && v.sites.size() > 1; ++i) check(v.uv, v.sites[i], v.radius, v.angles[i]);
   }
   for (const DiagramEdge& e : d.edges) {
     for (const EdgePoint& p : e.points) {
+      if (e.left == e.right && p.left_angle == p.right_angle) continue;
       check(p.uv, e.left, p.radius, p.left_angle);
       check(p.uv, e.right, p.radius, p.right_angle);
     }

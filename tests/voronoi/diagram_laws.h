@@ -21,7 +21,8 @@ std::string unproved(const TestFace& face, const VoronoiDiagram& diagram);
 int euler_number(const FaceDomain& domain, const VoronoiDiagram& diagram);
 
 /// The largest relative difference of the geodesic distances from a vertex or edge point to its sites, by connect()
-/// without a guess where that finds a geodesic no longer than the stored one.
+/// without a guess where that finds a geodesic as long as the stored one; infinite where none is found. Free ends of
+/// cut loci are left out.
 double worst_mismatch(const Surface& surface, const VoronoiDiagram& diagram);
 
 /// Of `count` random points of the face, how many lie in a cell other than that of the nearest site (connect() to all
