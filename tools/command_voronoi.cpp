@@ -68,7 +68,11 @@ VoronoiResult compute(const CadModel& model, const CadFace& face, const VoronoiA
                       const SitesFile& file) {
   try {
     VoronoiRequest request = request_of(arguments, file);
-    ProgressLine progress(arguments.progress, "cells reached");
+    ProgressLine placing(arguments.progress, "sites placed"), progress(arguments.progress, "cells reached");
+    request.placing = [&placing](int done, int total) {
+      placing.show(done, total);
+      return true;
+    };
     request.progress = [&progress](int done, int total) {
       progress.show(done, total);
       return true;

@@ -21,10 +21,11 @@ ProgressLine::~ProgressLine() {
 void ProgressLine::show(int done, int total) {
   if (!wanted_) return;
   shown_ = true;
+  const std::string count = total > 0 ? fmt::format("{}/{}", done, total) : std::to_string(done);
   if (terminal_) {
-    fmt::print(stderr, "\rgeovor: {} {}/{}\033[K", what_, done, total);
+    fmt::print(stderr, "\rgeovor: {} {}\033[K", what_, count);
   } else {
-    fmt::print(stderr, "geovor: {} {}/{}\n", what_, done, total);
+    fmt::print(stderr, "geovor: {} {}\n", what_, count);
   }
   std::fflush(stderr);
 }

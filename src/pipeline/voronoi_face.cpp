@@ -53,10 +53,10 @@ std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request
     if (!(area <= kMostSites * cell)) {
       throw Error(ErrorCode::Usage, "the spacing asks for more than a million sites; give a larger --spacing");
     }
-    return place_sites_apart(domain, request.spacing, request.seed);
+    return place_sites_apart(domain, request.spacing, request.seed, request.placing);
   }
   if (request.count <= 0) throw Error(ErrorCode::Usage, "no sites; give some, or a positive number of them");
-  return place_sites(domain, request.count, request.seed);
+  return place_sites(domain, request.count, request.seed, request.placing);
 }
 
 void check_areas(const FaceDomain& domain, double face_area, VoronoiDiagram& diagram) {

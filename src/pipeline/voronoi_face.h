@@ -26,7 +26,8 @@ struct VoronoiRequest {
   bool snap = false;       ///< take a place in space that is off the face to the nearest point of it
   double tolerance = 0.0;  ///< see VoronoiOptions
   bool certify = false;    ///< fill VoronoiResult::certificate
-  std::function<bool(int done, int total)> progress;  ///< see VoronoiOptions
+  std::function<bool(int placed, int total)> placing;  ///< see PlacingProgress; false: the diagram of those placed
+  std::function<bool(int done, int total)> progress;   ///< see VoronoiOptions
   bool raster = false;  ///< fill VoronoiResult::raster and the paths of the dual, for a picture
 };
 

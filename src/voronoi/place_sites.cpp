@@ -144,8 +144,10 @@ class SitePlacer {
     sites_ = {domain.to_principal(far.front().uv)};
   }
 
-  void place(size_t count, double smallest_reach) {
-    while (sites_.size() < count) {
+  /// `total`: what progress is told.
+  void place(size_t count, double smallest_reach, int total, const PlacingProgress& progress) {
+    const auto goes_on = [&] { return !progress || progress(static_cast<int>(sites_.size()), total); };
+    while (goes_on() && sites_.size() < count) {
       const std::vector<FarPoint> far = far_points();
       if (far.empty() || far.front().reach <= std::max(smallest_reach, kSmallestReach * size_)) {
         if (smallest_reach > 0.0) return;
@@ -192,17 +194,18 @@ class SitePlacer {
 
 }  // namespace
 
-std::vector<Uv> place_sites(const FaceDomain& domain, int count, std::uint64_t seed) {
+std::vector<Uv> place_sites(const FaceDomain& domain, int count, std::uint64_t seed, const PlacingProgress& progress) {
   if (count <= 0) throw Error(ErrorCode::Usage, "the number of sites must be at least 1");
   SitePlacer placer(domain, seed);
-  placer.place(count, 0.0);
+  placer.place(count, 0.0, count, progress);
   return placer.sites();
 }
 
-std::vector<Uv> place_sites_apart(const FaceDomain& domain, double spacing, std::uint64_t seed) {
+std::vector<Uv> place_sites_apart(const FaceDomain& domain, double spacing, std::uint64_t seed,
+                                  const PlacingProgress& progress) {
   if (!(spacing > 0.0)) throw Error(ErrorCode::Usage, "the spacing must be positive");
   SitePlacer placer(domain, seed);
-  placer.place(std::numeric_limits<int>::max(), kReachOfSpacing * spacing);
+  placer.place(std::numeric_limits<int>::max(), kReachOfSpacing * spacing, 0, progress);
   return placer.sites();
 }
 

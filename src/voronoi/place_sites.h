@@ -2,11 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "brep/face_domain.h"
 
 namespace geovor {
+
+/// Called with the number of places so far and that wanted (0: not known). Returning false ends the work: the places so
+/// far are returned.
+using PlacingProgress = std::function<bool(int placed, int total)>;
 
 /// `count` places in the face by farthest points: each next one is a point whose reach (its geodesic distance to the
 /// places so far, or twice its distance in space to the border where that is less and the face is wide enough) is the
@@ -19,12 +24,14 @@ namespace geovor {
 /// small as kBatchReach of the largest: no two places are nearer to each other than kBatchReach of the largest reach
 /// that is left when the second of them is placed.
 /// The same arguments give the same places. Throws Error(Usage) where count is not positive or no place is left.
-std::vector<Uv> place_sites(const FaceDomain& domain, int count, std::uint64_t seed);
+std::vector<Uv> place_sites(const FaceDomain& domain, int count, std::uint64_t seed,
+                            const PlacingProgress& progress = {});
 
 /// The same until no reach is larger than kReachOfSpacing of `spacing`: no two places are nearer to each other than
 /// that, most neighbours are about `spacing` apart, and no point of the face is farther than that from its site but
 /// near the border, where it may be by half of that. Throws Error(Usage) where spacing is not positive.
-std::vector<Uv> place_sites_apart(const FaceDomain& domain, double spacing, std::uint64_t seed);
+std::vector<Uv> place_sites_apart(const FaceDomain& domain, double spacing, std::uint64_t seed,
+                                  const PlacingProgress& progress = {});
 
 inline constexpr int kOneByOne = 24;
 inline constexpr double kBatchReach = 0.63;

@@ -196,23 +196,41 @@ class Voronoi(ProgramTest):
 
 
 class VoronoiProgress(ProgramTest):
-    def test_it_counts_the_cells_where_asked(self):
+    def test_it_counts_sites_and_cells_where_asked(self):
         done = self.run_program("voronoi", sample("sphere.step"), "--count", 5, "-o", "out.json", "--progress")
         self.assertEqual(done.returncode, DONE)
-        self.assertEqual(done.stderr.splitlines(), [f"geovor: cells reached {n}/5" for n in range(1, 6)])
+        self.assertEqual(done.stderr.splitlines(), [f"geovor: sites placed {n}/5" for n in range(1, 6)] +
+                         [f"geovor: cells reached {n}/5" for n in range(1, 6)])
+
+    def test_sites_by_their_spacing_are_counted_without_an_end(self):
+        done = self.run_program("voronoi", sample("flat.step"), "--spacing", 2.5, "-o", "out.json", "--progress")
+        self.assertEqual(done.returncode, DONE)
+        sites = len(self.read_json("out.json")["sites"])
+        self.assertEqual(done.stderr.splitlines(), [f"geovor: sites placed {n}" for n in range(1, sites + 1)] +
+                         [f"geovor: cells reached {n}/{sites}" for n in range(1, sites + 1)])
+
+    def interrupt(self, after, *arguments):
+        """Starts `geovor voronoi`, waits for the line `after` on stderr, and sends Ctrl-C: it ends at once, and there is
+        no new file."""
+        before = self.files()
+        program = subprocess.Popen([PROGRAM, "voronoi", *map(str, arguments), "--progress"], cwd=self.folder,
+                                   stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.assertIn(after, iter(program.stderr.readline, ""))
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=10)
+        self.assertEqual(program.returncode, INTERRUPTED)
+        self.assertEqual(self.files(), before)
 
     def test_an_interrupt_stops_soon_and_leaves_nothing(self):
         # The lines of so many cells fill the pipe, so that the program can't be ready before the signal comes.
         rows = [f"{-2.9 + 5.8 * i / 100!r},{-2.9 + 5.8 * k / 100!r}\n" for i in range(100) for k in range(100)]
         self.write("sites.csv", "u,v\n" + "".join(rows))
-        program = subprocess.Popen([PROGRAM, "voronoi", sample("flat.step"), "--sites", "sites.csv", "-o", "out.json",
-                                    "-o", "out.step", "--progress"], cwd=self.folder, stderr=subprocess.PIPE,
-                                   stdout=subprocess.PIPE, text=True)
-        self.assertIn("cells reached 1/10000", program.stderr.readline())
-        program.send_signal(signal.SIGINT)
-        program.communicate(timeout=10)
-        self.assertEqual(program.returncode, INTERRUPTED)
-        self.assertEqual(self.files(), ["sites.csv"])
+        self.interrupt("geovor: cells reached 1/10000\n", sample("flat.step"), "--sites", "sites.csv", "-o", "out.json",
+                       "-o", "out.step")
+
+    def test_an_interrupt_while_sites_are_placed_leaves_nothing(self):
+        # As many as take minutes.
+        self.interrupt("geovor: sites placed 3/100000\n", sample("wave.step"), "--count", 100000, "-o", "out.json")
 
 
 if __name__ == "__main__":

@@ -44,6 +44,20 @@ TEST(PlaceSites, GivesTheSamePlacesForTheSameSeedOnly) {
   EXPECT_NE(place_sites(domain, 9, 4), place_sites(domain, 9, 5));
 }
 
+TEST(PlaceSites, TellsHowManyThereAreAndStopsWhereToldSo) {
+  const TestFace face = plane_square();
+  const FaceDomain domain = face.domain();
+  std::vector<int> told;
+  const auto sites = place_sites(domain, 9, 4, [&](int placed, int total) {
+    EXPECT_EQ(total, 9);
+    told.push_back(placed);
+    return placed < 4;
+  });
+  EXPECT_EQ(told, (std::vector<int>{1, 2, 3, 4}));
+  const auto all = place_sites(domain, 9, 4);
+  EXPECT_EQ(sites, std::vector<Uv>(all.begin(), all.begin() + 4));
+}
+
 TEST(PlaceSites, RejectsANumberThatIsNotPositive) {
   const TestFace face = plane_square();
   EXPECT_THROW(place_sites(face.domain(), 0, 1), Error);
