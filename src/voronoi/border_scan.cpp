@@ -28,6 +28,9 @@ constexpr double kBesideSite = 0.1;
 constexpr double kJump = 0.25;
 constexpr double kNoChange = 1e-6;
 
+// Where the middle of a step is seen under so many times the angle that its ends are, rays may have run together in it.
+constexpr double kDip = 2.0;
+
 // How often a step is halved where an owner can't be followed over it, or its geodesic is another one afterwards.
 constexpr int kMostHalvings = 10;
 
@@ -116,12 +119,11 @@ class CycleScan {
   double step_from(const Label& l) const {
     if (l.candidates.empty()) return least_step_;
     const SiteRay& owner = l.owner();
-    double step = kStep * owner.polar.s;
-    if (!sites_.unique_to(owner.site, owner.polar.s + 2.0 * step)) {
-      step = std::min(
-          {step, kStepAmongBranches * std::abs(owner.y), kStepAmongBranches * rays_.curvature_map().radius(owner.uv)});
-    }
-    return std::max({step, kStepNearSite * apart(owner.site), least_step_});
+    const double step = std::max(kStep * owner.polar.s, kStepNearSite * apart(owner.site));
+    if (sites_.unique_to(owner.site, owner.polar.s + 2.0 * step)) return std::max(step, least_step_);
+    return std::max(std::min({kStep * owner.polar.s, kStepAmongBranches * std::abs(owner.y),
+                              kStepAmongBranches * rays_.curvature_map().radius(owner.uv)}),
+                    least_step_);
   }
 
   /// From a site to its nearest neighbour, in a straight line.
@@ -130,7 +132,7 @@ class CycleScan {
     return other < 0 ? 0.0 : (sites_.position(other) - sites_.position(site)).norm();
   }
 
-  /// Whether the ray ends so near to its site that nothing else can be nearer.
+  /// Whether the ray ends so near to its site that no other site can be nearer.
   bool in_own_disk(const SiteRay& ray) const {
     return ray.polar.s < std::max(kOwnDisk * apart(ray.site), 2.0 * least_step_);
   }
@@ -193,6 +195,16 @@ class CycleScan {
     return std::abs(off) > kJump * (std::abs(from) + std::abs(to)) + kNoChange;
   }
 
+  /// Whether rays of one site may have run together between two places: where the angle, as a cubic of the place with
+  /// the slopes at both, is steepest in the middle. From a cut locus that ends next to the border y grows so fast that
+  /// Newton's method goes over it both ways.
+  static bool dips(const SiteRay& a, const SiteRay& b) {
+    const Xyz way = b.x - a.x;
+    const double from = a.N.dot(way) / a.y, to = b.N.dot(way) / b.y;
+    const double middle = 1.5 * wrap_angle(b.polar.t - a.polar.t) - 0.25 * (from + to);
+    return std::abs(middle) > kDip * std::max(std::abs(from), std::abs(to)) + kNoChange;
+  }
+
   /// The generator's ray to another place.
   std::optional<SiteRay> follow(const SiteRay& ray, double at) const {
     return rays_.to(ray.site, uv(at), carry(ray, rays_.surface().position(uv(at))));
@@ -205,11 +217,11 @@ class CycleScan {
   /// The changes between two owners. A step on which one of them can't be followed is too long.
   void collect(double lo, const SiteRay& a, double hi, const SiteRay& b, int depth) {
     if (depth > kMostChanges) return;
-    if (a.site == b.site && ((in_own_disk(a) && in_own_disk(b)) || (!turns_over(a, b) && unique(a, b)))) return;
+    if (a.site == b.site && unique(a, b) && ((in_own_disk(a) && in_own_disk(b)) || !turns_over(a, b))) return;
     const auto a_there = follow(a, hi), b_here = follow(b, lo);
     const bool followed = a_there && b_here && (depth >= kMostHalvings || !turns_over(a, b));
     const bool there = followed && same_generator(*a_there, b), back = followed && same_generator(*b_here, a);
-    if (there && back) return;
+    if (there && back && (depth >= kMostHalvings || !dips(a, b))) return;
     // One way only: near a conjugate point Newton's method has gone over to the other.
     const auto change = followed && !there && !back ? root(lo, a, *b_here, hi, *a_there, b) : std::nullopt;
     if (!change) {

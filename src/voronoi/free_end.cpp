@@ -41,10 +41,11 @@ std::optional<SiteRay> free_end(const SiteRays& rays, const SiteRay& one, const 
     t += step * width;
     s = *here + 0.5 * slope * step;
   }
-  const OffsetJet o = offset(rays.surface(), rays.site(one.site), s, t, options);
-  if (o.status != TraceStatus::Converged) return std::nullopt;
-  const Xyz T = o.at.tangent;
-  return SiteRay{one.site, {s, t}, o.uv, o.at.S, T, o.at.normal.cross(T), 0.0};
+  options.tolerance = kRayTolerance;
+  const TracedRay end = RaySource(rays.surface(), rays.site(one.site), &rays.curvature_map()).end(s, t, options);
+  if (end.status != TraceStatus::Converged) return std::nullopt;
+  const Xyz T = end.at.tangent;
+  return SiteRay{one.site, {s, t}, end.at.p, end.at.S, T, end.at.normal.cross(T), 0.0};
 }
 
 }  // namespace geovor

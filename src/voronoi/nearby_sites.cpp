@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "geodesic/closed_forms.h"
@@ -74,9 +75,10 @@ NearbySites::NearbySites(const SiteRays& rays)
   for (int i = 0; i < rays.count(); ++i) frames_.push_back(tangent_frame(rays.surface(), rays.site(i)));
 }
 
-// Any two geodesics of the length make less than what the survey says of a second one.
+// Any two geodesics of the length make less than what the survey says of a second one. On a cylinder two together wind
+// round it, on a sphere they make a great circle: one is half of that. A cone's tip is curved beyond any bound.
 bool NearbySites::unique_to(int site, double limit) const {
-  if (closed_form_) return false;
+  if (closed_form_) return rays_.surface().kind() != SurfaceKind::Cone && limit * rays_.curvature() < std::numbers::pi;
   Knowledge& k = known_[site];
   if (limit <= k.certain) return true;
   if (!(limit < k.open)) return false;
