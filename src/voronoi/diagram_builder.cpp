@@ -88,8 +88,8 @@ class DiagramBuilder {
   void trace_spoke(SpokeRef start);
   void open_spokes_of(int vertex);
   std::optional<SpokeRef> arrive(const TracedEdge& edge);
-  std::optional<SpokeRef> arrive_inside(const std::vector<SiteRay>& generators, const BisectorPoint& last);
-  bool put_vertices(const std::vector<SiteRay>& generators);
+  std::optional<SpokeRef> arrive_at_knot(const TracedEdge& edge);
+  bool put_knot(const std::vector<SiteRay>& generators);
   void add(std::vector<BisectorPoint> points, SpokeRef start, SpokeRef end);
   void reach(int site, int edge);
   void remove(int edge);
@@ -142,7 +142,7 @@ std::optional<std::vector<SiteRay>> DiagramBuilder::kept_rays(const DiagramVerte
     if (!ray) return std::nullopt;
     generators.push_back(*ray);
   }
-  if (!sites_.nearer_than(v.radius * (1.0 + kOneVertex), generators.front().uv, generators).empty()) {
+  if (!sites_.nearer_than(v.radius * (1.0 + kTieWindow), generators.front().uv, generators).empty()) {
     return std::nullopt;
   }
   return generators;
@@ -187,18 +187,15 @@ void DiagramBuilder::keep(const PartDiagram& part) {
   }
 }
 
-// Where several cells come together on the border, each two of them that are neighbours there share an edge.
 void DiagramBuilder::start_on_border(int cycle) {
   for (const LabelChange& change : scan_border(border_, cycle, rays_, sites_)) {
     const SiteRay &before = change.before, &after = change.after;
-    const auto tied = sites_.nearer_than(before.polar.s * (1.0 + kOneVertex), before.uv, {before, after});
+    const auto tied = sites_.nearer_than(before.polar.s * (1.0 + kTieWindow), before.uv, {before, after});
     std::vector<SiteRay> around = {after};
     around.insert(around.end(), tied.begin(), tied.end());
     around.push_back(before);
     sort_around(around);
-    for (size_t i = 0; i + 1 < around.size(); ++i) {
-      open_.push_back(table_.start_on_border(change.place, {around[i + 1], around[i]}));
-    }
+    if (tied.empty() || !put_knot(around)) open_spokes_of(table_.put_on_border(change.place, {after, before}));
   }
 }
 
@@ -231,7 +228,7 @@ void DiagramBuilder::trace_both_ways(const BisectorPoint& seed) {
     std::vector<SiteRay> generators = {seed.left, seed.right};
     generators.insert(generators.end(), tied.begin(), tied.end());
     sort_around(generators);
-    if (put_vertices(generators)) return;
+    if (put_knot(generators) && (table_.arriving(seed) || table_.arriving({seed.right, seed.left}))) return;
   }
   const TracedEdge onward = tracer_.trace(seed, false);
   if (onward.end == TraceEnd::Closed) {
@@ -276,10 +273,8 @@ std::optional<SpokeRef> DiagramBuilder::arrive(const TracedEdge& edge) {
   std::optional<SpokeRef> spoke;
   switch (edge.end) {
     case TraceEnd::Vertex:
-      spoke = arrive_inside(edge.generators, last);
-      break;
     case TraceEnd::Border:
-      spoke = table_.arrive_on_border(edge.place, last);
+      spoke = arrive_at_knot(edge);
       break;
     case TraceEnd::FreeEnd:
       spoke = table_.arrive_at_free_end(last);
@@ -298,27 +293,31 @@ std::optional<SpokeRef> DiagramBuilder::arrive(const TracedEdge& edge) {
   return spoke;
 }
 
-std::optional<SpokeRef> DiagramBuilder::arrive_inside(const std::vector<SiteRay>& generators,
-                                                      const BisectorPoint& last) {
+std::optional<SpokeRef> DiagramBuilder::arrive_at_knot(const TracedEdge& edge) {
+  const BisectorPoint& last = edge.points.back();
   if (const auto known = table_.arriving(last)) return known;
-  put_vertices(generators);
+  const bool plain = edge.end == TraceEnd::Border && edge.generators.size() == 2;
+  if (!plain) put_knot(edge.generators);
+  if (edge.end == TraceEnd::Border && !table_.arriving(last)) {
+    table_.put_on_border(edge.place, {last.left, last.right});
+  }
   return table_.arriving(last);
 }
 
 // No step leads along an edge within the disk: it is straight, from one vertex to the other.
-bool DiagramBuilder::put_vertices(const std::vector<SiteRay>& generators) {
+bool DiagramBuilder::put_knot(const std::vector<SiteRay>& generators) {
+  const Knot knot = resolve_ties(border_, rays_, generators);
   std::vector<int> number;
-  for (const TiedVertex& v : resolve_ties(rays_, generators)) {
-    number.push_back(table_.put_inside(v.generators));
-    if (v.parent >= 0) {
-      const SiteRay &first = v.generators.front(), &last = v.generators.back();
-      const auto from = table_.spoke_between(number[v.parent], first, last);
-      const auto to = table_.spoke_between(number.back(), last, first);
-      if (from && to && !table_.taken(*from) && !table_.taken(*to)) {
-        const BisectorPoint end = table_.departure(*to);
-        add({table_.departure(*from), {end.right, end.left}}, *from, *to);
-      }
-    }
+  for (const Knot::Vertex& v : knot.vertices) {
+    number.push_back(v.place ? table_.put_on_border(*v.place, v.generators) : table_.put_inside(v.generators));
+  }
+  for (const Knot::Edge& e : knot.edges) {
+    const SiteRay &left = generators[e.left], &right = generators[e.right];
+    const auto from = table_.spoke_between(number[e.from], right, left);
+    const auto to = table_.spoke_between(number[e.to], left, right);
+    if (!from || !to || table_.taken(*from) || table_.taken(*to)) continue;
+    const BisectorPoint end = table_.departure(*to);
+    add({table_.departure(*from), {end.right, end.left}}, *from, *to);
   }
   for (int vertex : number) open_spokes_of(vertex);
   return !number.empty();

@@ -26,9 +26,6 @@ constexpr double kBorderMargin = 2.0;
 
 constexpr int kBorderIterations = 30;
 
-// A vertex this near to the border, as a part of its radius, lies on it.
-constexpr double kOnBorder = 1e-9;
-
 /// The cubic of the parameter plane with the edge's directions at two of its points.
 class ParameterCubic {
  public:
@@ -66,13 +63,6 @@ std::optional<EdgeOnBorder::Crossing> EdgeOnBorder::straight_on(const BisectorPo
   const auto crossing = border_.first_crossing(from, from + step, starts_on_border ? kOffBorder : 0.0);
   if (!crossing) return std::nullopt;
   return Crossing{a, a, *crossing};
-}
-
-std::optional<BorderPlace> EdgeOnBorder::place_of(const BisectorPoint& m) const {
-  const double near = kOnBorder * m.radius();
-  if (border_.cycle_count() == 0 || !border_.near_border(m.position(), near)) return std::nullopt;
-  const auto place = border_.nearest(domain_.to_principal(m.left.uv));
-  return place && (border_.xyz(*place) - m.position()).norm() < near ? place : std::nullopt;
 }
 
 // Near the border a chord is halved until the cubic of the parameter plane, of which half way tells how good it is,

@@ -29,9 +29,6 @@ class EdgeOnBorder {
   /// The point of the edge on the border near the crossing, by Newton's method for d_left = d_right along the border.
   std::optional<BisectorPoint> point(const Crossing& crossing, BorderPlace& place) const;
 
-  /// Where m lies on the border, if it does.
-  std::optional<BorderPlace> place_of(const BisectorPoint& m) const;
-
  private:
   std::optional<Crossing> leaves_face(const BisectorPoint& a, const BisectorPoint& b, double skip, int depth) const;
   std::optional<FaceBorder::Crossing> chord_leaves_face(Uv from, Uv to, double skip) const;

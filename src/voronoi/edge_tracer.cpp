@@ -233,10 +233,6 @@ EdgeTracer::Step EdgeTracer::take_vertex(Walk& walk, const Vertex& found) const 
     if (outcome != Step::Going) return outcome;
     walk.edge.generators = vertex.generators;
     walk.edge.end = TraceEnd::Vertex;
-    if (const auto place = on_border_.place_of(vertex.point)) {
-      walk.edge.place = *place;
-      walk.edge.end = TraceEnd::Border;
-    }
     return Step::Ended;
   }
   return Step::Failed;
@@ -287,10 +283,13 @@ bool EdgeTracer::end_on_border(Walk& walk, double h, const EdgeOnBorder::Crossin
   BorderPlace place;
   const auto point = on_border_.point(crossing, place);
   if (!point || chord(walk.current(), *point) > kMostOvershoot * h) return false;
-  const auto nearer =
-      sites_.nearer_than(point->radius() * (1.0 - kOneVertex), point->left.uv, {point->left, point->right});
-  if (!nearer.empty()) return false;
+  const double radius = point->radius();
+  const auto nearer = sites_.nearer_than(radius * (1.0 + kTieWindow), point->left.uv, {point->left, point->right});
+  if (!nearer.empty() && nearer.front().polar.s < radius * (1.0 - kTieWindow)) return false;
   walk.edge.points.push_back(*point);
+  walk.edge.generators = {point->left, point->right};
+  walk.edge.generators.insert(walk.edge.generators.end(), nearer.begin(), nearer.end());
+  sort_around(walk.edge.generators);
   walk.edge.place = place;
   walk.edge.end = TraceEnd::Border;
   return true;

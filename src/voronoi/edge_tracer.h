@@ -22,7 +22,7 @@ enum class TraceEnd {
 struct TracedEdge {
   std::vector<BisectorPoint> points;  ///< from the start to the end, both included
   TraceEnd end = TraceEnd::Stuck;
-  std::vector<SiteRay> generators;  ///< Vertex: all that are as near to kTieWindow, counter-clockwise (sort_around)
+  std::vector<SiteRay> generators;  ///< Vertex, Border: as near to kTieWindow, counter-clockwise (sort_around)
   BorderPlace place;                ///< Border
 };
 

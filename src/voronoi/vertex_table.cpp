@@ -66,64 +66,38 @@ std::optional<SpokeRef> VertexTable::spoke_between(int vertex, const SiteRay& ri
 // Seen from the vertex the chain's left site is to the right.
 std::optional<SpokeRef> VertexTable::arriving(const BisectorPoint& last) const {
   for (int i : near(last.position())) {
-    if (vertices_[i].data.on_boundary) continue;
     if (const auto spoke = spoke_between(i, last.left, last.right)) return spoke;
   }
   return std::nullopt;
 }
 
-bool VertexTable::has_generators(const Vertex& v, const std::vector<SiteRay>& generators) const {
-  return !v.data.on_boundary && v.rays.size() == generators.size() &&
-         std::all_of(generators.begin(), generators.end(), [&](const SiteRay& g) {
-           return std::any_of(v.rays.begin(), v.rays.end(), [&](const SiteRay& ray) { return same_ray(ray, g); });
-         });
-}
-
-int VertexTable::put_inside(const std::vector<SiteRay>& generators) {
+// Those of a vertex on the border have a first and a last.
+std::optional<int> VertexTable::find(const std::vector<SiteRay>& generators, bool on_border) const {
   for (int i : near(generators.front().x)) {
-    if (has_generators(vertices_[i], generators)) return i;
-  }
-  return add(generators, static_cast<int>(generators.size()));
-}
-
-std::optional<SpokeRef> VertexTable::arrive_on_border(BorderPlace place, const BisectorPoint& last) {
-  return start_on_border(place, {last.right, last.left});
-}
-
-// Several edges may end in one point of the border: each new one must share a generator with the first or the last of
-// those that are there.
-std::optional<SpokeRef> VertexTable::extend_border_vertex(int i, const BisectorPoint& outwards) {
-  Vertex& v = vertices_[i];
-  if (const auto spoke = spoke_between(i, outwards.right, outwards.left)) return spoke;
-  const auto insert = [&](int at, int spoke, const SiteRay& ray) {
-    v.rays.insert(v.rays.begin() + at, ray);
-    v.data.sites.insert(v.data.sites.begin() + at, ray.site);
-    v.data.angles.insert(v.data.angles.begin() + at, ray.polar.t);
-    v.data.spokes.insert(v.data.spokes.begin() + spoke, Spoke{});
-  };
-  const int n = static_cast<int>(v.rays.size());
-  if (same_ray(v.rays.back(), outwards.right)) {
-    insert(n, n - 1, outwards.left);
-    return SpokeRef{i, n - 1};
-  }
-  if (same_ray(v.rays.front(), outwards.left)) {
-    insert(0, 0, outwards.right);
-    return SpokeRef{i, 0};
+    const Vertex& v = vertices_[i];
+    if (v.data.on_boundary != on_border || v.rays.size() != generators.size()) continue;
+    const auto first = std::find_if(v.rays.begin(), on_border ? v.rays.begin() + 1 : v.rays.end(),
+                                    [&](const SiteRay& ray) { return same_ray(ray, generators.front()); });
+    std::vector<SiteRay> turned(first, v.rays.end());
+    turned.insert(turned.end(), v.rays.begin(), first);
+    if (std::equal(turned.begin(), turned.end(), generators.begin(), same_ray)) return i;
   }
   return std::nullopt;
 }
 
-SpokeRef VertexTable::start_on_border(BorderPlace place, const BisectorPoint& first) {
-  for (int i : near(first.position())) {
-    if (!vertices_[i].data.on_boundary) continue;
-    if (const auto spoke = extend_border_vertex(i, first)) return *spoke;
-  }
-  const int made = add({first.right, first.left}, 1);
+int VertexTable::put_inside(const std::vector<SiteRay>& generators) {
+  if (const auto known = find(generators, false)) return *known;
+  return add(generators, static_cast<int>(generators.size()));
+}
+
+int VertexTable::put_on_border(BorderPlace place, const std::vector<SiteRay>& generators) {
+  if (const auto known = find(generators, true)) return *known;
+  const int made = add(generators, static_cast<int>(generators.size()) - 1);
   DiagramVertex& v = vertices_[made].data;
   v.on_boundary = true;
   v.border_cycle = place.cycle;
   v.border_parameter = place.parameter;
-  return {made, 0};
+  return made;
 }
 
 SpokeRef VertexTable::arrive_at_free_end(const BisectorPoint& last) { return {add({last.left}, 1), 0}; }

@@ -35,17 +35,16 @@ class VertexTable {
   /// The number of the vertex inside the face with these generators, counter-clockwise; a new one if there is none yet.
   int put_inside(const std::vector<SiteRay>& generators);
 
+  /// The same for a vertex on the border, whose spokes lead into the face: one between each two that follow each other.
+  int put_on_border(BorderPlace place, const std::vector<SiteRay>& generators);
+
   /// The spoke of a vertex between two generators that are neighbours there, as seen from it.
   std::optional<SpokeRef> spoke_between(int vertex, const SiteRay& right, const SiteRay& left) const;
 
-  std::optional<SpokeRef> arrive_on_border(BorderPlace place, const BisectorPoint& last);
   SpokeRef arrive_at_free_end(const BisectorPoint& last);
 
   /// A cut locus that is one point: a vertex without edges.
   void add_point(const SiteRay& ray) { add({ray}, 0); }
-
-  /// An edge that is to leave the border at this place.
-  SpokeRef start_on_border(BorderPlace place, const BisectorPoint& first);
 
   /// The start of the edge that leaves by the spoke.
   BisectorPoint departure(SpokeRef s) const;
@@ -67,8 +66,7 @@ class VertexTable {
   int add(const std::vector<SiteRay>& rays, int spokes);
   Cell cell_of(const Xyz& x) const;
   std::vector<int> near(const Xyz& x) const;
-  bool has_generators(const Vertex& vertex, const std::vector<SiteRay>& generators) const;
-  std::optional<SpokeRef> extend_border_vertex(int vertex, const BisectorPoint& outwards);
+  std::optional<int> find(const std::vector<SiteRay>& generators, bool on_border) const;
 
   const FaceDomain& domain_;
   double merge_;

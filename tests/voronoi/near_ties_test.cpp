@@ -63,6 +63,39 @@ TEST_P(NearTies, AreResolved) {
   }
 }
 
+/// Sites on an arc about a point of the border of the square [-1, 1]^2: their cells meet there, or almost.
+std::vector<Uv> sites_about(Uv centre, double first, double last, int count, double noise, Uniform& random) {
+  std::vector<Uv> sites;
+  for (int k = 0; k < count; ++k) {
+    const double t = first + (last - first) * k / (count - 1);
+    sites.push_back({centre.u + 0.5 * std::cos(t) + noise * (random() - 0.5),
+                     centre.v + 0.5 * std::sin(t) + noise * (random() - 0.5)});
+  }
+  return sites;
+}
+
+TEST_P(NearTies, AreResolvedOnTheBorderAndInACorner) {
+  struct Arc {
+    Uv centre;
+    double first, last;
+  };
+  const Arc arcs[] = {{{0.1, 1.0}, kPi + 0.3, 2.0 * kPi - 0.4},
+                      {{1.0, 1.0}, kPi + 0.1, 1.5 * kPi - 0.2},
+                      {{-1.0, 0.2}, -0.5 * kPi + 0.3, 0.5 * kPi - 0.2}};
+  const TestFace face = plane_square();
+  for (const Arc& arc : arcs) {
+    for (int count : {2, 3, 4, 6}) {
+      Uniform random(static_cast<unsigned>(count));
+      const VoronoiDiagram d =
+          build_diagram(face.domain(), sites_about(arc.centre, arc.first, arc.last, count, GetParam(), random));
+      EXPECT_TRUE(d.warnings.empty()) << count << " sites: " << d.warnings.front().text;
+      EXPECT_EQ(broken_topology(d), "");
+      EXPECT_EQ(unproved(face, d), "");
+      EXPECT_LE(worst_residual(d), 1e-12);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Noise, NearTies, ::testing::Values(0.0, 1e-14, 3e-13, 1e-12, 3e-12, 1e-11, 1e-10, 1e-9, 1e-7));
 
 }  // namespace
