@@ -28,7 +28,8 @@ constexpr double kBesideSite = 0.1;
 constexpr double kJump = 0.25;
 constexpr double kNoChange = 1e-6;
 
-// Where the middle of a step is seen under so many times the angle that its ends are, rays may have run together in it.
+// Where the middle of a step is seen under so many times the angle that its ends are, or where y has so many times the
+// size at one end that it has at the other, rays may have run together in it.
 constexpr double kDip = 2.0;
 
 // How often a step is halved where an owner can't be followed over it, or its geodesic is another one afterwards.
@@ -196,13 +197,14 @@ class CycleScan {
   }
 
   /// Whether rays of one site may have run together between two places: where the angle, as a cubic of the place with
-  /// the slopes at both, is steepest in the middle. From a cut locus that ends next to the border y grows so fast that
-  /// Newton's method goes over it both ways.
+  /// the slopes at both, is steepest in the middle, or y changes too much to tell. From a cut locus that
+  /// ends next to the border y grows so fast that Newton's method goes over it both ways.
   static bool dips(const SiteRay& a, const SiteRay& b) {
     const Xyz way = b.x - a.x;
     const double from = a.N.dot(way) / a.y, to = b.N.dot(way) / b.y;
     const double middle = 1.5 * wrap_angle(b.polar.t - a.polar.t) - 0.25 * (from + to);
-    return std::abs(middle) > kDip * std::max(std::abs(from), std::abs(to)) + kNoChange;
+    const double steeper = std::max(std::abs(from), std::abs(to)), y = std::min(std::abs(a.y), std::abs(b.y));
+    return std::abs(middle) > kDip * steeper + kNoChange || std::max(std::abs(a.y), std::abs(b.y)) > kDip * y;
   }
 
   /// The generator's ray to another place.
