@@ -7,6 +7,7 @@
 
 #include "io/hidden_surfaces.h"
 #include "io/number_text.h"
+#include "io/thin_line.h"
 
 namespace geovor {
 namespace {
@@ -24,6 +25,15 @@ constexpr double kTallest = 0.5, kWidest = 2.0;
 constexpr double kPale = 0.45;
 
 constexpr int kDecimals = 1;
+
+// A line may lie this far (page units) from where it belongs: its points are rounded to tenths already.
+constexpr double kInvisible = 0.1;
+
+void append_run(const std::vector<PagePoint>& points, PathData& path) {
+  const std::vector<PagePoint> thin = thin_line(points, kInvisible);
+  path.move(thin.front());
+  for (size_t i = 1; i < thin.size(); ++i) path.line(thin[i]);
+}
 
 std::vector<Xyz> corners(const CellRaster& raster) {
   std::vector<Xyz> points;
@@ -152,6 +162,10 @@ void FaceViews::append_frame() {
 
 // One path a cell: all of it has the same shade.
 void FaceViews::paint_plane(const std::function<LinearColour(int site)>& tint) {
+  for (const CellOutline& outline : raster_.outlines) {
+    append_outline(outline, lit_tint(tint(outline.site), view_.towards_viewer()));
+  }
+  if (!raster_.outlines.empty()) return;
   std::vector<const CellPatch*> patches;
   for (const CellPatch& p : raster_.patches) patches.push_back(&p);
   std::stable_sort(patches.begin(), patches.end(),
@@ -162,12 +176,27 @@ void FaceViews::paint_plane(const std::function<LinearColour(int site)>& tint) {
   }
 }
 
+void FaceViews::append_outline(const CellOutline& outline, const std::string& colour) {
+  PathData path;
+  for (const std::vector<Uv>& loop : outline.loops) {
+    std::vector<PagePoint> points;
+    for (Uv p : loop) points.push_back(on_plane(p));
+    points.push_back(points.front());
+    points = thin_line(points, kInvisible);
+    path.move(points.front());
+    for (size_t i = 1; i + 1 < points.size(); ++i) path.line(points[i]);
+    path.close();
+  }
+  append_path(path, "fill-rule=\"evenodd\" color=\"" + colour + '"');
+}
+
 void FaceViews::append_lines(const std::vector<PagePoint>& points, const std::vector<char>& shown, const char* style) {
   PathData path;
-  for (size_t i = 0; i + 1 < points.size(); ++i) {
+  for (size_t i = 0; i < shown.size(); ++i) {
     if (!shown[i]) continue;
-    if (i == 0 || !shown[i - 1]) path.move(points[i]);
-    path.line(points[i + 1]);
+    std::vector<PagePoint> run = {points[i]};
+    for (; i < shown.size() && shown[i]; ++i) run.push_back(points[i + 1]);
+    append_run(run, path);
   }
   if (!path.empty()) append_path(path, std::string("class=\"") + style + '"');
 }
@@ -219,9 +248,10 @@ void FaceViews::plane_copies(const std::vector<Uv>& line, double u_period, doubl
   const Turns in_u = turns(reach.u, raster_.box.u, u_period), in_v = turns(reach.v, raster_.box.v, v_period);
   for (double j = in_v.first; j <= in_v.last; ++j) {
     for (double i = in_u.first; i <= in_u.last; ++i) {
+      std::vector<PagePoint> points;
+      for (const Uv p : line) points.push_back(on_plane(p + UvVec{i * in_u.period, j * in_v.period}));
       PathData path;
-      path.move(on_plane(line.front() + UvVec{i * in_u.period, j * in_v.period}));
-      for (const Uv p : line) path.line(on_plane(p + UvVec{i * in_u.period, j * in_v.period}));
+      append_run(points, path);
       append_path(path, std::string("class=\"") + style + "\" clip-path=\"url(#plane)\"");
     }
   }

@@ -25,7 +25,7 @@ class FaceViews {
   /// `style`: rules of the style sheet; class "b" is the border of the face, "f" the frame of the parameter domain.
   FaceViews(const CellRaster& raster, const std::string& title, const std::string& style, const PictureSize& size);
 
-  /// The patches of both views, tinted by their site, then the frame and the border.
+  /// Patches in space and outlines in the plane, tinted by their site, then the frame and the border.
   void paint(const std::function<LinearColour(int site)>& tint);
 
   void space_line(const std::vector<Xyz>& line, const char* style);
@@ -53,6 +53,7 @@ class FaceViews {
   std::string lit_tint(const LinearColour& tint, const Xyz& normal) const;
   void paint_space(const std::function<LinearColour(int site)>& tint);
   void paint_plane(const std::function<LinearColour(int site)>& tint);
+  void append_outline(const CellOutline& outline, const std::string& colour);
   void append_frame();
 
   const CellRaster& raster_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "pipeline/cell_outlines.h"
 #include "pipeline/path_spline.h"
 
 namespace geovor {
@@ -177,7 +178,10 @@ CadCurve FaceDistances::spline(const FacePath& path, const std::string& name) co
 
 CellRaster FaceDistances::patches() const {
   const double deflection = std::max(kPictureDeflection * model_.diagonal(), tolerance_);
-  return raster_of_cells(FaceDomain(model_, face_, deflection), VoronoiDiagram{}, kRasterRows, kRasterColumns);
+  CellRaster raster =
+      raster_of_cells(FaceDomain(model_, face_, deflection), VoronoiDiagram{}, kRasterRows, kRasterColumns);
+  raster.outlines = {outline_of_face(model_, face_, deflection)};
+  return raster;
 }
 
 }  // namespace geovor

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "brep/face_domain.h"
+#include "pipeline/cell_outlines.h"
 #include "pipeline/face_point.h"
 #include "voronoi/diagram_builder.h"
 #include "voronoi/place_sites.h"
@@ -93,7 +94,10 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   result.surface = face.surface;
   result.deflection = deflection;
   result.parameters = domain.box();
-  if (request.raster) result.raster = raster_of_cells(domain, result.diagram, kRasterRows, kRasterColumns);
+  if (request.raster) {
+    result.raster = raster_of_cells(domain, result.diagram, kRasterRows, kRasterColumns);
+    result.raster.outlines = outlines_of_cells(model, face, result.diagram, deflection);
+  }
   if (request.certify) result.certificate = certify(domain, result.diagram, area);
   return result;
 }

@@ -1,6 +1,7 @@
 """geovor voronoi: the diagram file, held against laws that every diagram obeys."""
 
 import math
+import re
 import signal
 import subprocess
 import unittest
@@ -11,6 +12,26 @@ from program import DONE, FACE_REJECTED, INTERRUPTED, LEAVES_FACE, PROGRAM, Prog
 
 def distance(a, b):
     return math.dist(a["xyz"], b["xyz"])
+
+
+def painted_area(d):
+    """Of the polygons of a path as the program writes it: M, l, h, v and z; holes run the other way round."""
+    twice, command, numbers = 0.0, "", []
+    points = []
+    for word in re.findall(r"[a-zA-Z]|-?\d*\.?\d+", d):
+        if word == "z":
+            twice += sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, points[1:] + points[:1]))
+        if word.isalpha():
+            command = word
+            continue
+        numbers.append(float(word))
+        if len(numbers) < (1 if command in "hv" else 2):
+            continue
+        x, y = (0, 0) if command == "M" else points[-1]
+        dx, dy = {"h": lambda a: (a, 0), "v": lambda a: (0, a)}.get(command, lambda a, b: (a, b))(*numbers)
+        points = ([] if command == "M" else points) + [(x + dx, y + dy)]
+        numbers = []
+    return abs(twice) / 2
 
 
 class Voronoi(ProgramTest):
@@ -179,7 +200,18 @@ class Voronoi(ProgramTest):
         self.succeed("voronoi", sample("wave.step"), "--count", 10, "-o", "out.svg")
         root = xml.etree.ElementTree.parse(self.folder / "out.svg").getroot()
         self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
-        self.assertLess((self.folder / "out.svg").stat().st_size, 300_000)  # a page of documents can hold it
+        self.assertLess((self.folder / "out.svg").stat().st_size, 250_000)  # a page of documents can hold it
+
+    def test_the_picture_paints_the_face_and_not_its_holes(self):
+        self.succeed("voronoi", sample("plate.step"), "--face", 3, "--count", 5, "-o", "out.svg", "-o", "out.json",
+                     may_warn=LEAVES_FACE)
+        root = xml.etree.ElementTree.parse(self.folder / "out.svg").getroot()
+        paths = [path.get("d") for path in root.iter("{http://www.w3.org/2000/svg}path") if path.get("fill-rule")]
+        self.assertGreaterEqual(len(paths), 5)  # the slot divides a cell
+        frame = next(path.get("d") for path in root.iter("{http://www.w3.org/2000/svg}path")
+                     if path.get("class") == "f")
+        holes = 4 * 16 * math.pi + 100 * math.pi + 24 * 12 + 36 * math.pi
+        self.assertAlmostEqual(sum(map(painted_area, paths)) / painted_area(frame), 1 - holes / 6000, delta=5e-4)
 
     def test_a_cut_locus_that_ends_freely_has_residuals(self):
         # Its end is conjugate to the site: no second geodesic is there to measure against.
