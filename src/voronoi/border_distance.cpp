@@ -18,6 +18,11 @@ constexpr double kRefined = 1e-7;
 // Of a segment: beside a corner, on either side.
 constexpr double kBeside = 1e-9;
 
+// Where the border makes less way than this part of its segment in the parameter's unit, the jet's direction is noise.
+// Chords that are this part of the segment tell it instead.
+constexpr double kStandsStill = 1e-6;
+constexpr double kShortChord = 1e-6;
+
 // Of a cycle with fewer segments than this each is a side, and the shortest side gets some samples too.
 constexpr int kFewSegments = 64;
 constexpr int kPartsOfFew = 8;
@@ -83,7 +88,21 @@ BorderPlace BorderDistance::after(int k) const {
 }
 
 Xyz BorderDistance::tangent(BorderPlace place) const {
-  return push_forward(surface_.jet(border_.uv(place)), border_.direction(place)).normalized();
+  const Xyz slope = push_forward(surface_.jet(border_.uv(place)), border_.direction(place));
+  const double length = border_.segment_length(place.cycle, static_cast<int>(place.parameter));
+  return slope.norm() > kStandsStill * length ? slope.normalized() : chord_along(place, kShortChord * length);
+}
+
+// From the place towards the middle of its segment, the border's direction as the parameter grows.
+Xyz BorderDistance::chord_along(BorderPlace place, double shortest) const {
+  const double k = std::floor(place.parameter), way = k + 0.5 - place.parameter;
+  Xyz chord = border_.xyz({place.cycle, k + 0.5}) - border_.xyz(place);
+  for (double part = 0.5;; part *= 0.5) {
+    const Xyz shorter = border_.xyz({place.cycle, place.parameter + part * way}) - border_.xyz(place);
+    if (!(shorter.norm() > shortest)) break;
+    chord = shorter;
+  }
+  return (way < 0.0 ? -chord : chord).normalized();
 }
 
 double BorderDistance::to(const Xyz& x, double limit) const {
@@ -131,8 +150,7 @@ BorderDistance::Gate BorderDistance::extreme(const Xyz& direction) const {
   const double earlier = top.parameter - kBeside;
   const Xyz arrives = tangent({top.cycle, earlier < 0.0 ? earlier + n : earlier});
   const Xyz leaves = tangent(wrapped({top.cycle, top.parameter + kBeside}));
-  const Uv uv = border_.uv(top);
-  return {uv, border_.xyz(top), unit_normal(surface_.jet(uv)).cross(arrives + leaves).normalized()};
+  return {border_.uv(top), border_.xyz(top), (arrives + leaves).normalized()};
 }
 
 std::vector<BorderPlace> BorderDistance::between(BorderPlace from, BorderPlace to) const {

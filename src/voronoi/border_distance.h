@@ -21,11 +21,11 @@ class BorderDistance {
   /// places wherever the border bends little within a step.
   double to(const Xyz& x, double limit) const;
 
-  /// A point of the border with the unit direction of space that leads from it into the face, at a corner half way
-  /// between its sides.
+  /// A point of the border with the sum of the border's directions before and after it: turned left in the tangent
+  /// plane it leads into the face, at a corner half way between its sides.
   struct Gate {
     Uv uv;
-    Xyz x, inward;
+    Xyz x, along;
   };
   /// The point of the border that lies farthest in a direction. REQUIRES: !empty().
   Gate extreme(const Xyz& direction) const;
@@ -47,12 +47,14 @@ class BorderDistance {
 
   const FaceBorder& border() const { return border_; }
 
-  /// The border's unit tangent in space.
+  /// The border's unit tangent in space, also where parameters stand still (to a millionth of a radian there, as a
+  /// rule).
   Xyz tangent(BorderPlace place) const;
 
  private:
   double refined(int k, const Xyz& x) const;
   BorderPlace wrapped(BorderPlace place) const;
+  Xyz chord_along(BorderPlace place, double shortest) const;
 
   const Surface& surface_;
   const FaceBorder& border_;

@@ -7,15 +7,18 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "base/error.h"
 #include "geodesic/trace.h"
 #include "surface/forms.h"
+#include "surface/tangent_frame.h"
 #include "voronoi/border_distance.h"
 #include "voronoi/diagram_builder.h"
 #include "voronoi/face_border.h"
 #include "voronoi/far_points.h"
+#include "voronoi/site_ray.h"
 
 namespace geovor {
 namespace {
@@ -34,6 +37,13 @@ constexpr double kCoarse = 0.05;
 // so often at most, where the face is narrow there.
 constexpr double kInside = 0.15;
 constexpr int kMostHalvings = 20;
+
+// Where the border's point has no tangent plane (less than the first of these between the parameters' directions) the
+// way inside is found from a start so far from it, in parts of the box, to the third of these, parts of the way.
+constexpr double kNoPlane = 1e-6;
+constexpr double kFirstStart = 0.3;
+constexpr double kSettled = 1e-11;
+constexpr int kMostStarts = 40;
 
 // Directions that are tried for a point whose diagram can be finished.
 constexpr int kMostTurns = 8;
@@ -83,14 +93,45 @@ Uv extreme_of_closed(const Surface& surface, const UvBox& box, const Xyz& n) {
   return best;
 }
 
+/// Where parameters tell no directions a geodesic can arrive, but not leave: the one from inside that arrives there
+/// from where the other would have gone, by Newton's method for its start.
+std::optional<Uv> inside_of_gate_without_plane(const FaceDomain& domain, const BorderDistance::Gate& gate, double way) {
+  const Surface& surface = domain.surface();
+  std::vector<Uv> starts = {gate.uv + kFirstStart * (Uv{domain.box().u.middle(), domain.box().v.middle()} - gate.uv)};
+  const SiteRays rays(surface, starts);
+  for (int i = 0; i < kMostStarts; ++i) {
+    const auto ray = rays.to(i, gate.uv);
+    if (!ray) return std::nullopt;
+    const Xyz inward = ray->T.cross(ray->N).cross(gate.along).normalized();
+    const double turn = std::atan2(inward.dot(ray->N), -inward.dot(ray->T));
+    const TangentFrame frame = tangent_frame(surface, starts.back());
+    const Xyz T = frame.at_angle(ray->polar.t);
+    const Xyz step = (ray->polar.s - way) * T + turn * ray->y * frame.n.cross(T);
+    if (step.norm() <= kSettled * way) return starts.back();
+    const UvVec d = tangent_components(surface.jet(starts.back()), step);
+    double k = 1.0;
+    for (int halvings = 0; halvings < kMostHalvings && !domain.contains(starts.back() + k * d); ++halvings) k *= 0.5;
+    starts.push_back(starts.back() + k * d);
+  }
+  return std::nullopt;
+}
+
+/// The end of the geodesic of this length that leads from the gate into the face.
+std::optional<Uv> inside_of(const FaceDomain& domain, const BorderDistance::Gate& gate, double way) {
+  const SurfaceJet j = domain.surface().jet(gate.uv);
+  if (!(j.Su.cross(j.Sv).norm() > kNoPlane * std::max(j.Su.squaredNorm(), j.Sv.squaredNorm())))
+    return inside_of_gate_without_plane(domain, gate, way);
+  const Xyz inward = unit_normal(j).cross(gate.along).normalized();
+  return trace_geodesic(domain.surface(), gate.uv, tangent_components(j, inward), way).end.p;
+}
+
 /// A little inside the point of the border that is extreme in a direction.
 Uv just_inside(const FaceDomain& domain, const BorderDistance& border, const Xyz& n) {
   const BorderDistance::Gate gate = border.extreme(n);
-  const SurfaceJet j = domain.surface().jet(gate.uv);
   double way = kInside * n.dot(gate.x - border.extreme(-n).x);
   for (int i = 0; i < kMostHalvings; ++i, way *= 0.5) {
-    const Uv p = trace_geodesic(domain.surface(), gate.uv, tangent_components(j, gate.inward), way).end.p;
-    if (domain.contains(p)) return p;
+    const auto p = inside_of(domain, gate, way);
+    if (p && domain.contains(*p)) return *p;
   }
   return gate.uv;
 }
