@@ -128,14 +128,20 @@ class Round {
     return way;
   }
 
-  // Rays that go round a closed surface end in their own copies of the point.
+  // Rays that go round a closed surface end in their own copies of the point. Their frames turn with the last step too:
+  // by up to kLastStep, which edges between stored points, cubics by their slopes, would show.
   MeetingRays arrived(const MeetingRays& here, const Target& target, UvVec d) const {
     MeetingRays end = here;
     const Uv uv = here.rays[0].uv + d;
     for (int k = 0; k < end.count; ++k) {
       SiteRay& r = end.rays[k];
       const Xyz way = target.m - r.x;
-      r.polar = {target.radius, r.polar.t + r.N.dot(way) / r.y};
+      const double turn = r.N.dot(way) / r.y;
+      const Xyz T = r.T;
+      r.polar = {target.radius, r.polar.t + turn};
+      r.y += T.dot(way) * r.dy;
+      r.T += turn * r.dy * r.N;
+      r.N -= turn * r.dy * T;
       r.uv = k == 0 ? uv : found_.rays[k].uv + nearest_copy(rays_.surface(), found_.rays[k].uv, uv);
       r.x = target.m;
     }
