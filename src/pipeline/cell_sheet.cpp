@@ -152,8 +152,7 @@ class SheetBuilder {
   }
 
   void add_runs() {
-    for (int r = 0; r < static_cast<int>(runs_.runs.size()); ++r) {
-      EdgeRun& run = runs_.runs[r];
+    for (const EdgeRun& run : runs_.runs) {
       const DiagramEdge& edge = diagram_.edges[run.edge];
       const int from = node_of(run.from, edge, run.xyz.front()), to = node_of(run.to, edge, run.xyz.back());
       SheetLine line;

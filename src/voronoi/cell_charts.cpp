@@ -9,6 +9,7 @@
 #include "geodesic/offset.h"
 #include "numeric/worst_of.h"
 #include "voronoi/border_walk.h"
+#include "voronoi/sites.h"
 
 namespace geovor {
 namespace {
@@ -34,18 +35,13 @@ class Charter {
   Charter(const FaceDomain& domain, const VoronoiDiagram& diagram)
       : surface_(domain.surface()),
         diagram_(diagram),
-        sites_(places(diagram)),
+        sites_(places_of_sites(diagram)),
         rays_(surface_, sites_),
         border_(domain) {}
 
   DiagramCharts charts();
 
  private:
-  static std::vector<Uv> places(const VoronoiDiagram& diagram) {
-    std::vector<Uv> sites;
-    for (const DiagramSite& s : diagram.sites) sites.push_back(s.uv);
-    return sites;
-  }
   CellChart chart(const DiagramCell& cell, const std::vector<EdgeWalk>& edges) const;
   Polar add_loop(int site, const std::vector<CellPiece>& loop, const std::vector<EdgeWalk>& edges,
                  CellChart& out) const;

@@ -10,6 +10,7 @@
 #include "surface/forms.h"
 #include "voronoi/dual_checks.h"
 #include "voronoi/site_ray.h"
+#include "voronoi/sites.h"
 
 namespace geovor {
 namespace {
@@ -99,8 +100,7 @@ void add_fan(const DiagramVertex& v, std::vector<std::array<int, 3>>& triangles)
 }  // namespace
 
 DualGraph dual_of(const Surface& surface, const VoronoiDiagram& diagram, DualPaths paths) {
-  std::vector<Uv> sites;
-  for (const DiagramSite& s : diagram.sites) sites.push_back(s.uv);
+  const std::vector<Uv> sites = places_of_sites(diagram);
   const SiteRays rays(surface, sites);
   DualGraph dual;
   std::optional<DistanceFinder> finder;

@@ -12,6 +12,7 @@
 #include "surface/forms.h"
 #include "voronoi/border_view.h"
 #include "voronoi/site_ray.h"
+#include "voronoi/sites.h"
 
 namespace geovor {
 namespace {
@@ -31,12 +32,6 @@ constexpr double kShallow = 5e-4;
 
 // Of the integrator: far below what is shallow.
 constexpr double kPathTolerance = 1e-7;
-
-std::vector<Uv> places_of_sites(const VoronoiDiagram& diagram) {
-  std::vector<Uv> sites;
-  for (const DiagramSite& s : diagram.sites) sites.push_back(s.uv);
-  return sites;
-}
 
 double distance_anew(const SiteRays& rays, int site, Uv m, Polar guess) {
   const auto ray = rays.to(site, m, guess);

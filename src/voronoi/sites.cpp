@@ -92,4 +92,10 @@ void check_sites(const FaceDomain& domain, const std::vector<Uv>& sites, double 
   if (first.first < n) throw SiteError(first.first, first.second, "are the same point; leave one of them out");
 }
 
+std::vector<Uv> places_of_sites(const VoronoiDiagram& diagram) {
+  std::vector<Uv> places;
+  for (const DiagramSite& site : diagram.sites) places.push_back(site.uv);
+  return places;
+}
+
 }  // namespace geovor

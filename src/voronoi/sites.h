@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "brep/face_domain.h"
+#include "voronoi/diagram.h"
 
 namespace geovor {
 
@@ -27,5 +28,8 @@ class SiteError : public Error {
 /// Throws SiteError where a site is not finite, lies outside the face by more than `tolerance`, or lies nearer than
 /// `tolerance` to another one; of several faults the one with the smallest index.
 void check_sites(const FaceDomain& domain, const std::vector<Uv>& sites, double tolerance);
+
+/// Where the sites of a diagram lie, in its order.
+std::vector<Uv> places_of_sites(const VoronoiDiagram& diagram);
 
 }  // namespace geovor
