@@ -6,7 +6,6 @@
 #include <numbers>
 #include <optional>
 
-#include "geodesic/offset.h"
 #include "numeric/worst_of.h"
 #include "voronoi/border_walk.h"
 #include "voronoi/sites.h"
@@ -139,7 +138,7 @@ void Charter::add_whole_surface(int site, CellChart& out) const {
     out.found = ray.found;
     out.area += ray.sector * kTwoPi / kAllAround;
     if (!ray.found) return;
-    if (!first) first = ray;
+    if (!first) first = ray, out.antipode = end;
     out.corner_gap = larger_of(out.corner_gap, (ray.x - first->x).norm() / end->s);
     out.nearest = out.nearest > 0.0 ? smaller_of(out.nearest, end->s) : end->s;
   }

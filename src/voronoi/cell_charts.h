@@ -1,9 +1,11 @@
 // The cells of a finished diagram in the polar charts of their sites, from geodesics traced anew.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "brep/face_domain.h"
+#include "geodesic/offset.h"
 #include "voronoi/edge_walk.h"
 
 namespace geovor {
@@ -19,7 +21,8 @@ struct CellChart {
   double hidden = 0.0;             ///< widest part of the face's border that the cell has from behind (see ChartPiece)
   double least_y = 1.0;            ///< smallest y / radius along the border
   double nearest = 0.0;            ///< of the border's places that were looked at, to the site
-  double conjugate_at = 0.0;       ///< on one ray to the border: first conjugate point, part of the radius; 0: none
+  std::optional<ConjugatePoint> antipode;  ///< where all rays meet again: of the only site of a closed surface
+  double conjugate_at = 0.0;  ///< on one ray to the border: first conjugate point, part of the radius; 0: none
 };
 
 struct DiagramCharts {

@@ -66,6 +66,7 @@ class Examiner {
   bool measured() const;
   void trace_vertices();
   double missing_turn(int cell) const;
+  double off_antipode(int cell) const;
   std::string summary(const Certificate& certificate) const;
   Uv site(int cell) const { return d_.sites[cell].uv; }
 
@@ -258,10 +259,27 @@ CertificateClaim Examiner::corners() const {
                     Offender::Vertex, static_cast<int>(i), v.uv, "an edge ends beside it");
     }
   }
-  for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i)
+  for (int i = 0; i < static_cast<int>(charts_.cells.size()); ++i) {
     claim.measure(charts_.cells[i].corner_gap, Offender::Cell, i, site(i),
                   "the ray jumps where one piece of the border follows another");
+    claim.measure(off_antipode(i), Offender::Cell, i, site(i), "the point where all its rays meet is no vertex");
+  }
+  for (std::size_t i = 0; i < d_.vertices.size(); ++i) {
+    if (d_.vertices[i].spokes.empty() && !charts_.cells[d_.vertices[i].sites.front()].antipode)
+      claim.measure(1.0, Offender::Vertex, static_cast<int>(i), d_.vertices[i].uv, "a vertex without edges");
+  }
   return claim.done();
+}
+
+/// Where all rays of the only site of a closed surface meet in one point of the face, how far that lies from its
+/// vertex, relative to the radius.
+double Examiner::off_antipode(int cell) const {
+  const auto& antipode = charts_.cells[cell].antipode;
+  if (!antipode || !domain_.contains(domain_.to_principal(antipode->uv))) return 0.0;
+  double off = std::numeric_limits<double>::infinity();
+  for (const DiagramVertex& v : d_.vertices)
+    off = std::min(off, (domain_.surface().position(antipode->uv) - v.xyz).norm());
+  return off / antipode->s;
 }
 
 CertificateClaim Examiner::regularity() const {

@@ -13,7 +13,9 @@
 //
 // What is checked is the finished data, with every ray traced anew from its polar coordinates (voronoi/ray_end.h); what
 // lies between two places that were looked at is inferred: the places are the stored points and the middles between
-// them, and along the face's border a fraction of the distance to the site apart.
+// them, and along the face's border a fraction of the distance to the site apart. Every number is looked at, or made
+// anew and compared, but the slopes of edges' points and the residuals, which must only be finite (a residual: a
+// number). Warnings are not believed: which rays leave the face is told by the walks along the border.
 #pragma once
 
 #include <string>
@@ -40,14 +42,16 @@ struct CertificateClaim {
 
 struct Certificate {
   std::vector<CertificateClaim> claims;
-  /// Sites with paths that leave the face (warnings "path_leaves_face"): in their cells, and in those that compete with
-  /// them, distances are those of the surface continued, not of the face.
+  /// Sites with rays that leave the face by more than its border's deflection to the side, or of which the diagram says
+  /// so ("path_leaves_face"): in their cells, and in those that compete with them, distances are those of the surface
+  /// continued, not of the face.
   std::vector<int> not_covered;
   std::string result;  ///< one line: what is proved, and what is not
   bool holds() const;
 };
 
-/// Checks the diagram. `face_area`: of the same face, by quadrature over its parameters (brep/face_area.h).
+/// Checks the diagram. `face_area`: of the same face, by quadrature over its parameters (brep/face_area.h), which must
+/// have come to kAreasAddUp. A diagram without areas was not measured: what measuring finds is not asked of it.
 Certificate certify(const FaceDomain& domain, const VoronoiDiagram& diagram, const Area& face_area);
 
 /// Radial lengths on both sides of an edge, relative.

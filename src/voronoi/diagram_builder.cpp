@@ -14,6 +14,7 @@
 #include "voronoi/cells.h"
 #include "voronoi/dense_edge.h"
 #include "voronoi/edge_tracer.h"
+#include "voronoi/lost_geodesics.h"
 #include "voronoi/near_ties.h"
 #include "voronoi/path_checks.h"
 #include "voronoi/seam_check.h"
@@ -68,6 +69,7 @@ class DiagramBuilder {
       return nearest.empty() ? -1 : nearest.front().site;
     };
     assemble_cells(border_, cycle_owner, diagram_);
+    warn_of_lost_geodesics(sites_, diagram_);
     warn_of_seams();
     return std::move(diagram_);
   }
@@ -452,6 +454,7 @@ VoronoiDiagram merge_diagrams(const FaceDomain& domain, const std::vector<Uv>& s
   if (!options.measure || builder.stopped()) return diagram;
   measure_cells(domain, diagram);
   recompute_residuals(domain.surface(), diagram);
+  warn_of_what_has_no_measure(diagram);
   warn_of_paths_that_leave(domain, diagram);
   return diagram;
 }

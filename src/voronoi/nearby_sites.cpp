@@ -251,7 +251,7 @@ std::vector<SiteRay> NearbySites::nearest(Uv m) const {
 
 bool NearbySites::complete_as_asked(int site, double limit) const {
   const double asked = std::min(limit, known_[site].searched);
-  return !(asked > 0.0) || complete_to(site, asked);
+  return !(asked > 0.0) || unique_to(site, asked) || atlases_[site]->complete_to() >= asked;
 }
 
 bool NearbySites::complete_to(int site, double limit) const {

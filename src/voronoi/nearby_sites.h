@@ -49,8 +49,8 @@ class NearbySites {
   /// round the site was lost, or where from something that was found no geodesic could be computed.
   bool complete_to(int site, double limit) const;
 
-  /// The same for what was asked so far: of queries about greater lengths than `limit` only that part counts. Computes
-  /// nothing anew.
+  /// The same, of lost parts of the search alone, for what was asked so far: of queries about greater lengths than
+  /// `limit` only that part counts. Searches nothing anew.
   bool complete_as_asked(int site, double limit) const;
 
   /// Whether the curvature is known to allow no two geodesics shorter than `limit` from the site to one point.

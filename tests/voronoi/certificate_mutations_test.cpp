@@ -266,7 +266,21 @@ TEST(ASphereWithAHole, IsProvedForOneSite) {
     EXPECT_EQ(d.vertices.size(), u == opposite ? 0U : 1U) << u;
     const Certificate c = certify(face.domain(), d, area_of(face));
     EXPECT_TRUE(c.holds()) << u << ": " << c.result;
+    VoronoiDiagram without = d;
+    without.vertices.clear();
+    EXPECT_EQ(certify(face.domain(), without, area_of(face)).holds(), u == opposite) << u;
   }
+}
+
+// Its ray is right, but nothing ends there.
+TEST(AVertexWithoutEdges, IsNoVertexOfAPlane) {
+  const TestFace face = plane_square();
+  VoronoiDiagram d = build_diagram(face.domain(), {{0.1, 0.2}});
+  DiagramVertex v;
+  v.uv = {0.1, 0.7}, v.xyz = {0.1, 0.7, 0.0}, v.radius = 0.5, v.sites = {0}, v.angles = {0.5 * kPi};
+  EXPECT_TRUE(certify(face.domain(), d, area_of(face)).holds());
+  d.vertices.push_back(v);
+  EXPECT_EQ(broken_claims(certify(face.domain(), d, area_of(face))), std::vector<std::string>{"corners"});
 }
 
 }  // namespace

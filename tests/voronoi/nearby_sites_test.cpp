@@ -229,6 +229,7 @@ TEST(NearbySites, SaysHowFarTheSearchWasComplete) {
   const Scene scene(dome, {{0.0, 0.0}, {0.5, 0.0}});
   EXPECT_EQ(scene.nearby.nearer_than(1.0, {-0.3, 0.0}, {}).size(), 2u);
   EXPECT_TRUE(scene.nearby.complete_to(0, 1.0));
+  EXPECT_TRUE(scene.nearby.complete_as_asked(0, 2.0)) << "nobody asked for more than 1";
   EXPECT_FALSE(scene.nearby.complete_to(0, 2.0));  // the rim lies at pi / 2
   EXPECT_FALSE(scene.nearby.complete_to(1, 1.2));  // at pi / 3 on this side
   const auto bump = std::make_shared<GaussianBumps>(std::vector<GaussianBumps::Bump>{{{0, 0}, 3, 0.3}}, kBumpSquare);

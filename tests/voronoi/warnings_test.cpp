@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -9,6 +11,7 @@
 #include "surface/project.h"
 #include "test_faces.h"
 #include "voronoi/diagram_builder.h"
+#include "voronoi/lost_geodesics.h"
 
 namespace geovor::testing {
 namespace {
@@ -130,6 +133,42 @@ TEST(Warnings, NoPathIsNamedOnConvexFaces) {
   const TestFace face = plane_square();
   EXPECT_EQ(sites_with_hidden_parts(face, random_sites(face.domain(), 9, 3)), Sites{});
   EXPECT_EQ(sites_with_hidden_parts(TestFace(tube()).ring(kOnce), kTubeSites), Sites{});
+}
+
+/// A plane with nothing where u and v are both small.
+class TornPlane final : public Surface {
+ public:
+  SurfaceKind kind() const override { return SurfaceKind::Function; }
+  UvBox domain() const override { return kSquare; }
+  SurfaceJet jet(Uv p) const override {
+    const double z = std::hypot(p.u, p.v) < kTorn ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+    const Xyz zero = Xyz::Zero();
+    return {Xyz(p.u, p.v, z), Xyz::UnitX(), Xyz::UnitY(), zero, zero, zero};
+  }
+  static constexpr double kTorn = 0.1;
+};
+
+// Rays into the tear are lost, and what lies behind it can't be known from the other side.
+TEST(Warnings, LostGeodesicsAreNamed) {
+  TestFace face(std::make_shared<TornPlane>());
+  face.rectangle(kSquare).polygon({{-0.2, -0.2}, {-0.2, 0.2}, {0.2, 0.2}, {0.2, -0.2}});
+  std::set<int> named;
+  for (const DiagramWarning& w : warnings_of(face, {{-0.5, 0.1}, {-0.6, -0.9}, {-0.55, 0.9}}, "unresolved"))
+    named.insert(w.sites.begin(), w.sites.end());
+  EXPECT_TRUE(named.count(0));
+}
+
+TEST(Warnings, WhatHasNoMeasureIsNamed) {
+  VoronoiDiagram d = build_diagram(plane_square().domain(), {{0.2, 0.1}, {-0.4, 0.5}});
+  warn_of_what_has_no_measure(d);
+  EXPECT_TRUE(d.warnings.empty());
+  d.cells[1].area = std::numeric_limits<double>::quiet_NaN();
+  d.edges[0].residual = std::numeric_limits<double>::infinity();
+  d.vertices[1].residual = std::numeric_limits<double>::quiet_NaN();
+  warn_of_what_has_no_measure(d);
+  ASSERT_EQ(d.warnings.size(), 3u);
+  for (const DiagramWarning& w : d.warnings) EXPECT_EQ(w.kind, "unresolved");
+  EXPECT_EQ(d.warnings[0].sites, std::vector<int>{1});
 }
 
 }  // namespace
