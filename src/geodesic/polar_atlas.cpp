@@ -47,6 +47,10 @@ constexpr double kBeforeStop = 1e-2;
 // of the domain's extents.
 constexpr double kBesideSide = 0.05;
 
+// From there a ray goes on by Taylor's formula, by this part of a sample's step: a target on the side, above all in a
+// corner, may have its foot on a neighbour's ray only beyond the side.
+constexpr double kBeyondSide = 0.7;
+
 // Of the two parameters' directions.
 constexpr double kNoPlane = 1e-10;
 
@@ -188,15 +192,18 @@ bool PolarAtlas::Builder::end_where_stopped(Ray& ray, const GeodesicIntegrator& 
   const double before = stop - kBeforeStop * (stop - last);
   GeodesicIntegrator path = path_at(ray.t);
   if (!(stop > last) || path.advance(before) != TraceStatus::Converged) return false;
-  auto x = sample(path, ray);
+  const auto x = sample(path, ray);
   if (!x) return false;
-  const SpaceState end = extended(path.at(), path.jet(), stop - before);
-  if (!(end.S.allFinite() && end.tangent.allFinite() && end.normal.allFinite())) return false;
   const Uv p = stopped.state().p;
-  x->s = stop, x->X = end.S, x->T = end.tangent, x->n = end.normal, x->y = end.y, x->dy = end.dy;
-  x->inside = in_box(surface_, surface_.domain(), p);
-  ray.samples.push_back(*x);
-  return !x->inside || beside_vanishing_side(surface_, p);
+  const auto add = [&](double s, bool inside) {
+    const SpaceState end = extended(path.at(), path.jet(), s - before);
+    if (!(end.S.allFinite() && end.tangent.allFinite() && end.normal.allFinite())) return false;
+    ray.samples.push_back({s, end.S, end.tangent, end.normal, end.y, end.dy, x->step, inside});
+    return true;
+  };
+  const bool inside = in_box(surface_, surface_.domain(), p);
+  if (!add(stop, inside)) return false;
+  return !inside || (beside_vanishing_side(surface_, p) && add(stop + kBeyondSide * x->step, false));
 }
 
 // A ray that is lost beyond the domain has left it for good, like one that has met the rim.

@@ -71,12 +71,6 @@ BorderPlace BorderDistance::wrapped(BorderPlace place) const {
   return place;
 }
 
-BorderPlace BorderDistance::middle(BorderPlace from, BorderPlace to) const {
-  const double n = border_.segment_count(from.cycle);
-  const double end = to.parameter < from.parameter ? to.parameter + n : to.parameter;
-  return wrapped({from.cycle, 0.5 * (from.parameter + end)});
-}
-
 BorderPlace BorderDistance::before(int k) const {
   const int cycle = places_[k].cycle;
   return places_[k > first_[cycle] ? k - 1 : first_[cycle + 1] - 1];
@@ -91,6 +85,12 @@ Xyz BorderDistance::tangent(BorderPlace place) const {
   const Xyz slope = push_forward(surface_.jet(border_.uv(place)), border_.direction(place));
   const double length = border_.segment_length(place.cycle, static_cast<int>(place.parameter));
   return slope.norm() > kStandsStill * length ? slope.normalized() : chord_along(place, kShortChord * length);
+}
+
+BorderDistance::Tangents BorderDistance::tangents(BorderPlace place) const {
+  const double n = border_.segment_count(place.cycle), earlier = place.parameter - kBeside;
+  return {tangent({place.cycle, earlier < 0.0 ? earlier + n : earlier}),
+          tangent(wrapped({place.cycle, place.parameter + kBeside}))};
 }
 
 // From the place towards the middle of its segment, the border's direction as the parameter grows.
@@ -146,10 +146,7 @@ BorderDistance::Gate BorderDistance::extreme(const Xyz& direction) const {
   }
   const auto rising = [&](BorderPlace place) { return direction.dot(tangent(place)); };
   const BorderPlace top = turning_point(before(best), after(best), rising);
-  const double n = border_.segment_count(top.cycle);
-  const double earlier = top.parameter - kBeside;
-  const Xyz arrives = tangent({top.cycle, earlier < 0.0 ? earlier + n : earlier});
-  const Xyz leaves = tangent(wrapped({top.cycle, top.parameter + kBeside}));
+  const auto [arrives, leaves] = tangents(top);
   return {border_.uv(top), border_.xyz(top), (arrives + leaves).normalized()};
 }
 

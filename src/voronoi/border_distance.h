@@ -37,9 +37,6 @@ class BorderDistance {
   BorderPlace before(int k) const;
   BorderPlace after(int k) const;
 
-  /// Half way, in the border's parameter, from one place on to another of the same cycle.
-  BorderPlace middle(BorderPlace from, BorderPlace to) const;
-
   /// Within [from, to], which holds one turn of sign at most of a function of the place: where it turns from positive
   /// to negative. Converges to corners as well.
   template <class Function>
@@ -50,6 +47,12 @@ class BorderDistance {
   /// The border's unit tangent in space, also where parameters stand still (to a millionth of a radian there, as a
   /// rule).
   Xyz tangent(BorderPlace place) const;
+
+  /// The same just before and just after the place: at a corner two.
+  struct Tangents {
+    Xyz arrives, leaves;
+  };
+  Tangents tangents(BorderPlace place) const;
 
  private:
   double refined(int k, const Xyz& x) const;

@@ -16,8 +16,8 @@ namespace {
 // Of the radius: what its values along an edge that is equally far everywhere agree to.
 constexpr double kLevel = 1e-9;
 
-// Along a straight side the distance falls before it rises: a corner's neighbours are moved nearer, half way so often.
-constexpr int kNearer = 4;
+// Of the distance along the border: what a rough ray does not tell from none.
+constexpr double kNoSlope = 1e-5;
 
 // Of the radius: a cut locus no longer than this is a point.
 constexpr double kPoint = 1e-3;
@@ -210,30 +210,50 @@ void FarPoints::add_middle(const DiagramEdge& e) {
 }
 
 // Along the border the distance to the cell's site is largest at the ends of the stretch (the edges there see to
-// that), at corners, and where the border turns away from the circle about the site.
+// that), at corners, and where the border turns away from the circle about the site: where its slope turns from
+// positive to negative. What it is at the next places does not count: beside a corner it may fall and rise again.
 void FarPoints::add_stretch(const DiagramCell& cell, const CellPiece& piece) {
-  const FaceBorder& border = border_.border();
   const std::vector<BorderPlace> places = stretch_places(piece);
   const std::vector<std::optional<SiteRay>> rays = stretch_rays(cell.site, piece, places);
-  const auto s = [&](size_t i) { return rays[i] ? rays[i]->polar.s : 0.0; };
   const size_t n = places.size();
-  for (size_t i = piece.from_vertex < 0 ? 0 : 1; i + 1 < n; ++i) {
-    const size_t before = i == 0 ? n - 2 : i - 1;
-    if (!rays[i] || !(s(i) >= s(before) && s(i) > s(i + 1))) continue;
-    const auto ray_at = [&](BorderPlace place) {
-      return rays_.to(cell.site, border.uv(place), carry(*rays[i], border.xyz(place)));
-    };
-    const auto rising = [&](BorderPlace place) {
-      const auto ray = ray_at(place);
-      return ray ? ray->T.dot(border_.tangent(place)) : 0.0;
-    };
-    BorderPlace from = places[before], to = places[i + 1];
-    for (int k = 0; k < kNearer && !(rising(from) > 0.0); ++k) from = border_.middle(from, places[i]);
-    for (int k = 0; k < kNearer && !(rising(to) < 0.0); ++k) to = border_.middle(places[i], to);
-    // Else a neighbour's ray was another branch, or lost.
-    if (!(rising(from) > 0.0 && rising(to) < 0.0)) continue;
-    if (const auto top = ray_at(border_.turning_point(from, to, rising))) add_behind_border(*top);
+  std::optional<size_t> rises;  // from this place on, last
+  // Whether the slope is any.
+  const auto take = [&](size_t i, const Xyz& tangent) {
+    const double slope = rays[i] ? rays[i]->T.dot(tangent) : 0.0;
+    if (rays[i] && !(std::abs(slope) > kNoSlope)) return false;
+    if (slope < 0.0 && rises) add_top(places[*rises], places[i], *rays[*rises < i ? (*rises + i) / 2 : i], *rays[i]);
+    rises = slope > 0.0 ? std::optional(i) : std::nullopt;
+    return true;
+  };
+  for (size_t i = 0; i < n; ++i) {
+    const auto [arrives, leaves] = border_.tangents(places[i]);
+    if (i > 0) take(i, arrives);
+    if (i + 1 < n) take(i, leaves);
   }
+  // Once around, the way goes on where it began.
+  bool told = piece.from_vertex >= 0;
+  for (size_t i = 0; i + 1 < n && !told; ++i) {
+    const auto [arrives, leaves] = border_.tangents(places[i]);
+    told = (i > 0 && take(i, arrives)) || take(i, leaves);
+  }
+}
+
+// Where the distance to the site of the ray `between` is largest. Where the rays are different geodesics of the site
+// there is no such place.
+void FarPoints::add_top(BorderPlace from, BorderPlace to, const SiteRay& between, const SiteRay& at_to) {
+  const FaceBorder& border = border_.border();
+  const auto ray_at = [&](BorderPlace place) {
+    return rays_.to(between.site, border.uv(place), carry(between, border.xyz(place)));
+  };
+  const auto rising = [&](BorderPlace place) {
+    const auto ray = ray_at(place);
+    return ray ? ray->T.dot(border_.tangent(place)) : 0.0;
+  };
+  const auto end = ray_at(to);
+  if (!end || !same_generator(*end, at_to)) return;
+  const bool corner = from.parameter == to.parameter;
+  const auto top = corner ? end : ray_at(border_.turning_point(from, to, rising));
+  if (top) add_behind_border(*top);
 }
 
 std::vector<BorderPlace> FarPoints::stretch_places(const CellPiece& piece) const {

@@ -40,6 +40,7 @@ class FarPoints {
   void add_edge_near_border(const DiagramEdge& e, bool from_end);
   void add_middle(const DiagramEdge& e);
   void add_stretch(const DiagramCell& cell, const CellPiece& piece);
+  void add_top(BorderPlace from, BorderPlace to, const SiteRay& between, const SiteRay& at_to);
   void add_behind_border(const SiteRay& ray);
   bool is_shortest(const SiteRay& ray);
   void add_opposite_point();
