@@ -128,7 +128,7 @@ class SurfaceSpline {
     const int i = piece_at(t);
     const double k = (t - line_[i].t) / (line_[i + 1].t - line_[i].t);
     Eigen::Vector2d p = (1.0 - k) * vec(uv_[i]) + k * vec(uv_[i + 1]);
-    const Eigen::Vector2d first = p;
+    Eigen::Vector2d first = p;
     const Xyz x = line_at(t);
     const double reach = (vec(uv_[i + 1]) - vec(uv_[i])).norm();
     for (int step = 0; step < kNewtonSteps; ++step) {
