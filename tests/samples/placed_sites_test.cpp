@@ -26,7 +26,8 @@ const Family kFamilies[] = {
     {"ff", {"orig", "swaprev", "moeb16"}},
     {"sph", {"orig", "nurbs", "moeb16"}},
     {"oct", {"orig", "axisx"}},
-    {"pl", {"orig", "shear5", "skew2"}},
+    {"pl", {"orig", "shear5", "skew2", "pow3u", "smooth"}},  // corners without tangent plane
+    {"tor", {"orig", "smooth", "moeb64"}},                   // the same, and samples of the border elsewhere
 };
 
 std::filesystem::path shared_folder() {
