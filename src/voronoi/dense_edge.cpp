@@ -9,6 +9,7 @@
 
 #include "surface/forms.h"
 #include "surface/pole_chart.h"
+#include "voronoi/edge_piece.h"
 
 namespace geovor {
 namespace {
@@ -171,12 +172,14 @@ class DenseEdge {
     const Node *a = nullptr, *b = nullptr;
   };
 
-  // Into how many pieces the chord from node i has to be cut: the sag of a circle falls as their square.
+  // Into how many pieces the chord from node i has to be cut: the sag of a circle falls as their square. The edge turns
+  // by what both ends are off the chord together, also where it is an S whose ends are parallel.
   int pieces_of(size_t i) const {
     const Node &a = nodes_[i], &b = nodes_[i + 1];
     if (a.free_end || b.free_end) return 1;
-    const double turn = std::atan2(a.tangent.cross(b.tangent).norm(), a.tangent.dot(b.tangent));
-    const double sag = (b.x - a.x).norm() * turn / 8.0;
+    const Xyz chord = b.x - a.x;
+    const auto off = [&](const Xyz& tangent) { return std::atan2(tangent.cross(chord).norm(), tangent.dot(chord)); };
+    const double sag = chord.norm() * (off(a.tangent) + off(b.tangent)) / 8.0;
     return sag > sag_ ? static_cast<int>(std::min(std::ceil(std::sqrt(sag / sag_)), 1.0 * kMostBetween)) : 1;
   }
 
@@ -251,7 +254,8 @@ class DenseEdge {
     if (halvings == 0 || pieces_of(i) == 1) return;
     const Piece piece = piece_at(i);
     if (exact_enough(piece)) return;
-    const auto m = exact(piece, std::min(piece.miss / piece.a->m.radius(), 1.0));
+    auto m = exact(piece, std::min(piece.miss / piece.a->m.radius(), 1.0));
+    if (!m && !piece.a->free_end && !piece.b->free_end) m = halfway(rays_, piece.a->m, piece.b->m);
     if (!m) return;
     const Node middle = node_of(rays_, *m, &nodes_[i]);
     nodes_.insert(nodes_.begin() + static_cast<long>(i) + 1, middle);
