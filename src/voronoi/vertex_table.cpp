@@ -76,8 +76,10 @@ std::optional<int> VertexTable::find(const std::vector<SiteRay>& generators, boo
   for (int i : near(generators.front().x)) {
     const Vertex& v = vertices_[i];
     if (v.data.on_boundary != on_border || v.rays.size() != generators.size()) continue;
-    const auto first = std::find_if(v.rays.begin(), on_border ? v.rays.begin() + 1 : v.rays.end(),
-                                    [&](const SiteRay& ray) { return same_ray(ray, generators.front()); });
+    const auto last = on_border ? v.rays.begin() + 1 : v.rays.end();
+    const auto first =
+        std::find_if(v.rays.begin(), last, [&](const SiteRay& ray) { return same_ray(ray, generators.front()); });
+    if (first == last) continue;
     std::vector<SiteRay> turned(first, v.rays.end());
     turned.insert(turned.end(), v.rays.begin(), first);
     if (std::equal(turned.begin(), turned.end(), generators.begin(), same_ray)) return i;

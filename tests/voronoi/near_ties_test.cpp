@@ -98,5 +98,24 @@ TEST_P(NearTies, AreResolvedOnTheBorderAndInACorner) {
 
 INSTANTIATE_TEST_SUITE_P(Noise, NearTies, ::testing::Values(0.0, 1e-14, 3e-13, 1e-12, 3e-12, 1e-11, 1e-10, 1e-9, 1e-7));
 
+// The bisector of two of the sites touches a corner of the hole: it ends there from both sides.
+TEST(NearTies, AnEdgeThatTouchesACornerEndsThereTwice) {
+  TestFace face = plane_square();
+  face.polygon({{-0.3, -0.2}, {-0.3, 0.3}, {0.2, 0.3}, {0.2, -0.2}});
+  std::vector<Uv> sites;
+  for (int k = 5; k < 18; ++k) {
+    const Uv p{0.4 + 0.4 * std::cos(kPi * k / 6.0), 0.4 * std::sin(kPi * k / 6.0)};
+    if (face.domain().contains(p)) sites.push_back(p);
+  }
+  const VoronoiDiagram d = build_diagram(face.domain(), sites);
+  EXPECT_EQ(broken_topology(d), "");
+  EXPECT_EQ(unproved(face, d), "");
+  const Uv corner{0.2, -0.2};
+  EXPECT_EQ(
+      std::count_if(d.vertices.begin(), d.vertices.end(),
+                    [&](const DiagramVertex& v) { return std::hypot(v.uv.u - corner.u, v.uv.v - corner.v) < 1e-12; }),
+      2);
+}
+
 }  // namespace
 }  // namespace geovor::testing
