@@ -25,6 +25,11 @@ constexpr double kPoint = 1e-3;
 // Halvings of a stretch of an edge or a ray until the place is as exact as its distance.
 constexpr int kHalvings = 48;
 
+// A ray back from the border is asked in steps of this part of its length whether it has met a hole; a face narrower
+// than the other part of it behind the border has no place there.
+constexpr double kLongestStep = 0.125;
+constexpr double kNarrowest = 1e-3;
+
 // Steps along a geodesic to the point opposite its start, on a sphere of the start's curvature; how many spheres far.
 constexpr int kOppositeSteps = 64;
 constexpr int kSpheres = 4;
@@ -291,12 +296,14 @@ void FarPoints::add_behind_border(const SiteRay& ray) {
     const auto m = at(s);
     return m ? std::optional(s - 2.0 * border_.to(m->x, s)) : std::nullopt;
   };
+  const auto inner = behind_hole(ray);
+  if (!inner) return;
   constexpr int kSteps = 8;
   double outer = ray.polar.s, at_outer = ray.polar.s;
   std::optional<double> place;
   double largest = 0.0;
   for (int i = 1; i < kSteps; ++i) {
-    const double s = ray.polar.s * (1.0 - static_cast<double>(i) / kSteps);
+    const double s = ray.polar.s - (ray.polar.s - *inner) * i / kSteps;
     const auto here = excess(s);
     if (!here) return;
     if (*here <= 0.0) {
@@ -308,6 +315,28 @@ void FarPoints::add_behind_border(const SiteRay& ray) {
   }
   const auto m = place ? at(*place) : std::nullopt;
   if (m && is_shortest(*m)) points_.push_back({m->uv, m->x, m->polar.s});
+}
+
+// Where the face is a narrow ring around a hole, most of the way back from its outer border leads through the hole.
+std::optional<double> FarPoints::behind_hole(const SiteRay& ray) const {
+  const FaceDomain& domain = border_.border().domain();
+  const auto inside = [&](double s) {
+    const auto m = rays_.at(ray.site, {s, ray.polar.t});
+    return m && domain.contains(domain.to_principal(m->uv));
+  };
+  double step = kLongestStep * ray.polar.s;
+  while (!inside(ray.polar.s - step)) {
+    step *= 0.5;
+    if (step < kNarrowest * ray.polar.s) return std::nullopt;
+  }
+  double in = ray.polar.s - step, out = in - step;
+  while (out > 0.0 && inside(out)) in = out, out -= step;
+  if (!(out > 0.0)) return 0.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (in + out);
+    (inside(middle) ? in : out) = middle;
+  }
+  return in;
 }
 
 // The rays along the border were carried from one sample to the next: where the site has several geodesics to a place,

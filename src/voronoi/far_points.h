@@ -42,6 +42,9 @@ class FarPoints {
   void add_stretch(const DiagramCell& cell, const CellPiece& piece);
   void add_top(BorderPlace from, BorderPlace to, const SiteRay& between, const SiteRay& at_to);
   void add_behind_border(const SiteRay& ray);
+  /// For the ray to a place on the border: where, on its way back, the face ends at a hole; zero where it leads to the
+  /// site through the face. Nothing where the ray comes to the border from outside.
+  std::optional<double> behind_hole(const SiteRay& ray) const;
   bool is_shortest(const SiteRay& ray);
   void add_opposite_point();
   void put_in_order();

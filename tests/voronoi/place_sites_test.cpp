@@ -101,6 +101,27 @@ TEST(PlaceSites, TakesTorusesDiscsAndNarrowFaces) {
   EXPECT_GT(nearest_pair(in_a_row), 0.05);
 }
 
+// Plane rings: from the outer border back to the first site most of the way leads through the hole.
+TEST(PlaceSites, FindsPlacesBehindTheHoleOfANarrowRing) {
+  const auto circle = [](double radius, double turn) {
+    std::vector<Uv> points;
+    for (int k = 0; k < 200; ++k)
+      points.push_back({radius * std::cos(k * kPi / 100), turn * radius * std::sin(k * kPi / 100)});
+    return points;
+  };
+  for (const double hole : {2.0, 5.0}) {
+    const TestFace ring =
+        TestFace(std::make_shared<Plane>(Frame{})).polygon(circle(7.0, 1.0)).polygon(circle(hole, -1.0));
+    for (const int count : {2, 4, 9, 25}) {
+      const std::vector<Xyz> x = places(ring, count);
+      ASSERT_EQ(static_cast<int>(x.size()), count);
+      // Half of what squares on the ring's area would have.
+      const double area = kPi * (49.0 - hole * hole);
+      EXPECT_GT(nearest_pair(x), 0.5 * std::sqrt(area / count)) << count << " sites, hole " << hole;
+    }
+  }
+}
+
 // What place_sites_apart() promises, held against a grid of points.
 TEST(PlaceSites, ApartLeavesNoPointFarFromItsSite) {
   const TestFace face = plane_square();
