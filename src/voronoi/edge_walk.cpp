@@ -41,7 +41,7 @@ constexpr double kSeen = 1e-8;
 // Rays on the way from the last regular point to a free end.
 constexpr int kEndNodes = 5;
 
-// The place between two points is corrected until it changes by less than this part of the radius.
+// A place between two points is corrected until it changes by less than this part of the radius.
 constexpr double kSettled = 1e-13;
 constexpr int kMostCorrections = 6;
 
@@ -81,6 +81,7 @@ class Walker {
   void go_to_free_end(const Station& a, const Station& b);
   Station middle(const Station& a, const Station& b, double h) const;
   bool correct(Station& m, const Xyz& along, double h) const;
+  Station settled(Station m, const Xyz& along, double h, double apart) const;
   void add_area(const Station& a, const Station& m, const Station& b, double h);
   void note_turn(const Station& a, const Station& b, bool from_free_end, bool to_free_end);
   void look_between(const Station& a, const Station& b);
@@ -182,6 +183,18 @@ bool Walker::correct(Station& m, const Xyz& along, double h) const {
   return radius > 0.0;
 }
 
+// Corrected, with rays traced anew each time, until their ends are no farther apart than this part of the radius. Near
+// a conjugate point once is not enough: the square of what was missing counts as divided by y there.
+Station Walker::settled(Station m, const Xyz& along, double h, double apart) const {
+  for (int i = 0; i < kMostCorrections && found(m); ++i) {
+    const double lag = std::abs(m.rays[0].polar.s - m.rays[1].polar.s);
+    const double gap = std::max((m.rays[0].x - m.rays[1].x).norm(), lag) / m.radius();
+    if (gap <= apart || !correct(m, along, h)) break;
+    m = at(m.rays[0].polar, m.rays[1].polar);
+  }
+  return m;
+}
+
 /// dR/dt of the cell's border s = R(t); zero at a free end.
 double slope_in_angle(const Station& s, int side) {
   const Polar& p = s.rays[side].polar;
@@ -202,7 +215,7 @@ void Walker::go(const Station& a, const Station& b, int depth) {
   const double gap = (m.rays[0].x - m.rays[1].x).norm() / m.radius();
   const bool corrected = correct(m, along, h);
   if (!(gap <= kHalve) && depth < kDeepest && corrected) {
-    const Station anew = at(m.rays[0].polar, m.rays[1].polar);
+    const Station anew = settled(at(m.rays[0].polar, m.rays[1].polar), along, h, kHalve);
     if (found(anew) && anew.regular) {
       go(a, anew, depth + 1);
       go(anew, b, depth + 1);
@@ -270,13 +283,7 @@ void Walker::look_between(const Station& a, const Station& b) {
   const Xyz along = (b.rays[0].x - a.rays[0].x).normalized();
   const double h = arc_length(a, b);
   if (!a.regular || !b.regular || !(h > 0.0)) return;
-  Station m = middle(a, b, h);
-  for (int i = 0; i < kMostCorrections && found(m); ++i) {
-    const double lag = std::abs(m.rays[0].polar.s - m.rays[1].polar.s);
-    const double apart = std::max((m.rays[0].x - m.rays[1].x).norm(), lag) / m.radius();
-    if (apart <= kSettled || !correct(m, along, h)) break;
-    m = at(m.rays[0].polar, m.rays[1].polar);
-  }
+  const Station m = settled(middle(a, b, h), along, h, kSettled);
   out_.gap_between = found(m) ? gap_of(m, 0.5 * (m.rays[0].x + m.rays[1].x)) : 1.0;
 }
 
