@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "numeric/gauss_legendre.h"
 #include "numeric/worst_of.h"
@@ -78,7 +79,9 @@ class Walker {
   bool found(const Station& s) const { return s.rays[0].found && s.rays[1].found; }
   void note_stored(const EdgePoint& p, const Station& s);
   void go(const Station& a, const Station& b, int depth);
-  void go_to_free_end(const Station& a, const Station& b);
+  void go_to_free_end(const Station& a, const Station& b, int depth);
+  std::optional<Station> half_the_turn(const Station& a, const Station& b) const;
+  void add_area_by_angle(const Station& a, const Station& b, int side);
   Station middle(const Station& a, const Station& b, double h) const;
   bool correct(Station& m, const Xyz& along, double h) const;
   Station settled(Station m, const Xyz& along, double h, double apart) const;
@@ -256,25 +259,66 @@ void Walker::note_turn(const Station& a, const Station& b, bool from_free_end, b
   }
 }
 
+/// The cell's border s = R(t) as the cubic that has its values and slopes at two stations, at the part k of the turn.
+double cubic_in_angle(const Station& a, const Station& b, int side, double k) {
+  const Polar &p = a.rays[side].polar, &q = b.rays[side].polar;
+  const double turn = wrap_angle(q.t - p.t), rest = 1.0 - k;
+  return rest * rest * (1.0 + 2.0 * k) * p.s + k * k * (3.0 - 2.0 * k) * q.s +
+         turn * (k * rest * rest * slope_in_angle(a, side) - k * k * rest * slope_in_angle(b, side));
+}
+
 // Towards a free end the angles go like the square root of the way, but the cell's border there is a smooth curve
-// s = R(t), with R' = 0 at the end: a cubic in t, each site for itself.
-void Walker::go_to_free_end(const Station& a, const Station& b) {
-  const GaussRule& rule = gauss_legendre(kEndNodes);
-  for (int side = 0; side < 2; ++side) {
-    const Polar &p = a.rays[side].polar, &q = b.rays[side].polar;
-    const double turn = wrap_angle(q.t - p.t), from = turn * slope_in_angle(a, side),
-                 to = turn * slope_in_angle(b, side);
-    double sum = 0.0;
-    for (int i = 0; i < kEndNodes; ++i) {
-      const double k = 0.5 * (1.0 + rule.nodes[i]), rest = 1.0 - k;
-      const double s = rest * rest * (1.0 + 2.0 * k) * p.s + k * k * (3.0 - 2.0 * k) * q.s + k * rest * rest * from -
-                       k * k * rest * to;
-      const RayEnd end = ray(side, {s, p.t + k * turn}, RayParts::WithSector);
-      complete_ = complete_ && end.found;
-      sum += 0.5 * rule.weights[i] * end.sector;
+// s = R(t), with R' = 0 at the end: a cubic in t, each site for itself. Where a place of the edge half way is beside
+// it, that place is made a station.
+void Walker::go_to_free_end(const Station& a, const Station& b, int depth) {
+  const std::optional<Station> m = depth < kDeepest ? half_the_turn(a, b) : std::nullopt;
+  if (m) {
+    double off = 0.0;
+    for (int side = 0; side < 2; ++side) {
+      const double from = a.rays[side].polar.t, turn = wrap_angle(b.rays[side].polar.t - from);
+      const Polar& p = m->rays[side].polar;
+      off = larger_of(off, std::abs(cubic_in_angle(a, b, side, wrap_angle(p.t - from) / turn) - p.s) / p.s);
     }
-    out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * turn;
+    if (!(off <= kHalve)) {
+      go_to_free_end(a, *m, depth + 1);
+      go_to_free_end(*m, b, depth + 1);
+      return;
+    }
   }
+  for (int side = 0; side < 2; ++side) add_area_by_angle(a, b, side);
+}
+
+/// The place of the edge to which both rays have turned by about half; none where it can't be told, next to the end.
+std::optional<Station> Walker::half_the_turn(const Station& a, const Station& b) const {
+  const Xyz way = b.rays[0].x - a.rays[0].x;
+  const double h = way.norm();
+  if (!(h > kSeen * a.radius())) return std::nullopt;
+  std::array<Polar, 2> aim;
+  for (int side = 0; side < 2; ++side) {
+    const double from = a.rays[side].polar.t, turn = wrap_angle(b.rays[side].polar.t - from);
+    aim[side] = {cubic_in_angle(a, b, side, 0.5), from + 0.5 * turn};
+  }
+  Station m = settled(at(aim[0], aim[1]), way / h, h, kHalve);
+  const auto between = [&](int side) {
+    const double from = a.rays[side].polar.t, turn = wrap_angle(b.rays[side].polar.t - from);
+    const double k = wrap_angle(m.rays[side].polar.t - from) / turn;
+    return k > 0.0 && k < 1.0;
+  };
+  const bool met = found(m) && (m.rays[0].x - m.rays[1].x).norm() <= kHalve * m.radius();
+  return met && correct(m, way / h, h) && between(0) && between(1) ? std::optional(m) : std::nullopt;
+}
+
+void Walker::add_area_by_angle(const Station& a, const Station& b, int side) {
+  const GaussRule& rule = gauss_legendre(kEndNodes);
+  const double from = a.rays[side].polar.t, turn = wrap_angle(b.rays[side].polar.t - from);
+  double sum = 0.0;
+  for (int i = 0; i < kEndNodes; ++i) {
+    const double k = 0.5 * (1.0 + rule.nodes[i]);
+    const RayEnd end = ray(side, {cubic_in_angle(a, b, side, k), from + k * turn}, RayParts::WithSector);
+    complete_ = complete_ && end.found;
+    sum += 0.5 * rule.weights[i] * end.sector;
+  }
+  out_.seen[side].area += (side == 0 ? 1.0 : -1.0) * sum * turn;
 }
 
 /// A place between the points, corrected with rays traced anew each time. Two rays that meet beside the edge have
@@ -303,7 +347,7 @@ void Walker::finish() {
 void Walker::stretch(const Station& a, const Station& b, bool to_free_end) {
   const Xyz way = b.rays[0].x - a.rays[0].x;
   if (to_free_end || !a.regular || !b.regular) {
-    go_to_free_end(a, b);
+    go_to_free_end(a, b, 0);
     return;
   }
   if (!(way.norm() <= kSeen * a.radius()))
