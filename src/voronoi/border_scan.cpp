@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "surface/forms.h"
+#include "voronoi/edge_on_border.h"
 
 namespace geovor {
 namespace {
@@ -243,7 +244,8 @@ class CycleScan {
     }
     // The two may have changed to other geodesics of theirs on the way to here.
     if (turns_over(a, change->before)) collect(lo, a, at, change->before, depth + 1);
-    changes_.push_back({place(at), change->before, change->after});
+    const BisectorPoint exact = settled_on_border(rays_, border_, place(at), {change->after, change->before});
+    changes_.push_back({place(at), exact.right, exact.left});
     if (turns_over(change->after, b)) collect(at, change->after, hi, b, depth + 1);
   }
 

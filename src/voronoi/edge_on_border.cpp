@@ -26,6 +26,9 @@ constexpr double kBorderMargin = 2.0;
 
 constexpr int kBorderIterations = 30;
 
+// A last step along the border, in radii: so short that rays are moved by it to all digits.
+constexpr double kLastStep = 1e-9;
+
 /// The cubic of the parameter plane with the edge's directions at two of its points.
 class ParameterCubic {
  public:
@@ -127,7 +130,7 @@ std::optional<BisectorPoint> EdgeOnBorder::point(const Crossing& crossing, Borde
     if (!left || !right) return std::nullopt;
     m = {*left, *right};
     const double f = left->polar.s - right->polar.s;
-    if (std::abs(f) <= kBisectorTolerance * m.radius()) return m;
+    if (std::abs(f) <= kBisectorTolerance * m.radius()) return settled_on_border(rays_, border_, place, m);
     const double slope = (left->T - right->T).dot(push_forward(j, border_.direction(place)));
     const double step = -f / slope;
     if (!std::isfinite(step)) return std::nullopt;
@@ -135,6 +138,16 @@ std::optional<BisectorPoint> EdgeOnBorder::point(const Crossing& crossing, Borde
     place.parameter -= n * std::floor(place.parameter / n);
   }
   return std::nullopt;
+}
+
+BisectorPoint settled_on_border(const SiteRays& rays, const FaceBorder& border, BorderPlace place, BisectorPoint m) {
+  const UvVec direction = border.direction(place);
+  const Xyz along = push_forward(rays.surface().jet(m.left.uv), direction);
+  const double step = (m.right.polar.s - m.left.polar.s) / (m.left.T - m.right.T).dot(along);
+  if (!(std::abs(step) * along.norm() <= kLastStep * m.radius())) return m;
+  const Uv left = m.left.uv + step * direction, right = m.right.uv + step * direction;
+  const SurfaceJet j = rays.surface().jet(left);
+  return {moved(m.left, left, j), moved(m.right, right, j)};
 }
 
 }  // namespace geovor

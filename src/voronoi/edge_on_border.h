@@ -40,4 +40,9 @@ class EdgeOnBorder {
   double sag_;
 };
 
+/// A point of an edge on the border, known to the digits of the place's parameter, moved along the border to where its
+/// two rays are as long as each other: the parameter counts segments, and that of the two hundredth has two digits less
+/// than places have. Unchanged where the rays do not tell a place so near.
+BisectorPoint settled_on_border(const SiteRays& rays, const FaceBorder& border, BorderPlace place, BisectorPoint m);
+
 }  // namespace geovor
