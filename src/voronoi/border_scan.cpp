@@ -33,8 +33,10 @@ constexpr double kNoChange = 1e-6;
 // size at one end that it has at the other, rays may have run together in it.
 constexpr double kDip = 2.0;
 
-// How often a step is halved where an owner can't be followed over it, or its geodesic is another one afterwards.
-constexpr int kMostHalvings = 10;
+// How often a step is halved where an owner can't be followed over it, or its geodesic is another one afterwards: to a
+// millionth. The two rays of a cut locus that meets the border a little beyond its free end both go on along the border
+// for the width of their swallowtail only, which falls like the power 3/2 of that way.
+constexpr int kMostHalvings = 20;
 
 // How often a step is halved where a third generator may own a piece between two labels.
 constexpr int kDeepestSplit = 6;

@@ -46,6 +46,9 @@ constexpr int kEndNodes = 5;
 constexpr double kSettled = 1e-13;
 constexpr int kMostCorrections = 6;
 
+// From so near to a place, in lengths of the stretch, corrections lead to the edge.
+constexpr double kNear = 0.1;
+
 /// A place of the edge with both rays to it.
 struct Station {
   std::array<RayEnd, 2> rays;
@@ -83,6 +86,7 @@ class Walker {
   std::optional<Station> half_the_turn(const Station& a, const Station& b) const;
   void add_area_by_angle(const Station& a, const Station& b, int side);
   Station middle(const Station& a, const Station& b, double h) const;
+  Station aimed(Station m, const Station& a, const Station& b, double h) const;
   bool correct(Station& m, const Xyz& along, double h) const;
   Station settled(Station m, const Xyz& along, double h, double apart) const;
   void add_area(const Station& a, const Station& m, const Station& b, double h);
@@ -198,6 +202,27 @@ Station Walker::settled(Station m, const Xyz& along, double h, double apart) con
   return m;
 }
 
+// Where rays come together (y small) an angle may change by far more in one half of the way than in the other, and the
+// cubic of the angles misses by more than the way is long; that of the places does not. Each ray is turned, by Newton's
+// method between its angles at both ends, until it comes near to the place.
+Station Walker::aimed(Station m, const Station& a, const Station& b, double h) const {
+  const Xyz place = 0.5 * (a.rays[0].x + b.rays[0].x) + h / 8.0 * (a.tangent - b.tangent);
+  const auto off = [&] { return larger_of((m.rays[0].x - place).norm(), (m.rays[1].x - place).norm()); };
+  for (int i = 0; i < kMostCorrections && m.regular && found(m) && off() > kNear * h; ++i) {
+    std::array<Polar, 2> aim;
+    for (int side = 0; side < 2; ++side) {
+      const RayEnd& ray = m.rays[side];
+      const Xyz miss = place - ray.x;
+      const double t = ray.polar.t, turn = ray.N.dot(miss) / ray.y;
+      const double rest = wrap_angle(
+          (turn * wrap_angle(b.rays[side].polar.t - a.rays[side].polar.t) > 0.0 ? b : a).rays[side].polar.t - t);
+      aim[side] = {ray.polar.s + ray.T.dot(miss), t + (std::abs(turn) < std::abs(rest) ? turn : 0.5 * rest)};
+    }
+    m = at(aim[0], aim[1]);
+  }
+  return m;
+}
+
 /// dR/dt of the cell's border s = R(t); zero at a free end.
 double slope_in_angle(const Station& s, int side) {
   const Polar& p = s.rays[side].polar;
@@ -217,8 +242,9 @@ void Walker::go(const Station& a, const Station& b, int depth) {
   }
   const double gap = (m.rays[0].x - m.rays[1].x).norm() / m.radius();
   const bool corrected = correct(m, along, h);
-  if (!(gap <= kHalve) && depth < kDeepest && corrected) {
-    const Station anew = settled(at(m.rays[0].polar, m.rays[1].polar), along, h, kHalve);
+  if (!(gap <= kHalve) && depth < kDeepest) {
+    const Station start = corrected ? at(m.rays[0].polar, m.rays[1].polar) : aimed(m, a, b, h);
+    const Station anew = settled(start, along, h, kHalve);
     if (found(anew) && anew.regular) {
       go(a, anew, depth + 1);
       go(anew, b, depth + 1);

@@ -28,6 +28,10 @@ constexpr double kSecondOrder = 0.3;
 constexpr int kMostCorrections = 4;
 constexpr double kLastStep = 1e-8;
 
+// Rays that are not traced to all digits tell nothing where their errors may shift the point by more than this part of
+// what it is measured by.
+constexpr double kMostDoubt = 0.01;
+
 struct Target {
   Xyz m;
   double radius;
@@ -66,6 +70,12 @@ class Round {
     if (found_.count == 2 && first().site == found_.rays[1].site)
       scale *= std::min(1.0, std::abs(wrap_angle(first().polar.t - found_.rays[1].polar.t)));
     return scale;
+  }
+
+  /// By what part of the scale errors of the rays may shift the point where two of nearly one direction meet.
+  double doubt() const {
+    if (found_.count != 2) return 0.0;
+    return met_ * first().polar.s / (scale() * (first().T - found_.rays[1].T).norm());
   }
 
   /// Linear conditions on m = x + a T + b N in the first ray's tangent plane and on rho: rho = s_i + <T_i, m - x_i>.
@@ -182,14 +192,19 @@ std::optional<MeetingRays> find_equidistant(const SiteRays& rays, std::span<cons
   Aims aims;
   std::copy(first_aims.begin(), first_aims.end(), aims.begin());
   const std::span<const PolarGuess> used(aims.data(), first_aims.size());
+  bool all_digits = false;
   for (int i = 0; i < kMostRounds; ++i) {
     const ShotLadder ladder(rays.curvature() * radius, kRayTolerance);
     Round round(rays, plane);
-    if (!round.shoot(used, radius, ladder.tolerance_for(miss))) return std::nullopt;
+    if (!round.shoot(used, radius, all_digits ? ladder.tolerance() : ladder.tolerance_for(miss))) return std::nullopt;
     const double gap = round.gap(), relative = gap / round.scale();
     const bool exact = round.tolerance_met() <= ladder.tolerance();
+    if (!exact && !(round.doubt() <= kMostDoubt)) {
+      all_digits = true;
+      continue;
+    }
     const bool settled = relative <= kSecondOrder && round.settle();
-    if (exact && settled && relative <= ladder.made_good()) return round.end();
+    if (exact && settled && (relative <= ladder.made_good() || gap <= kRayTolerance * radius)) return round.end();
     if (exact && !settled && gap <= kMeetingTolerance * radius) return round.found();
     if (settled) {
       radius = round.end().rays[0].polar.s;
