@@ -49,6 +49,9 @@ constexpr int kMostRivalsInTurn = 24;
 // Two points nearer than this part of the radius have nothing between them.
 constexpr double kNoRoom = 1e-6;
 
+// Where the parameters do not tell the metric next to a tip, the last step of a cut locus to it may be this long.
+constexpr double kOntoTip = 1e-4;
+
 // The border may be farther off than where a step would have ended, by this factor.
 constexpr double kMostOvershoot = 2.0;
 
@@ -104,13 +107,13 @@ TracedEdge EdgeTracer::trace(const BisectorPoint& start, bool on_border) const {
     if (outcome == Step::Failed) walk.step *= 0.5;
     if (!(walk.step > kShortestStep * longest_step(walk.current()))) break;
   }
-  if (near_conjugate_point(walk.current(), kNearlyOneGeodesic)) end_freely(walk);
+  if (near_conjugate_point(walk.current(), kNearlyOneGeodesic) && !end_in_tip(walk, kOntoTip)) end_freely(walk);
   return walk.edge;
 }
 
 EdgeTracer::Step EdgeTracer::advance(Walk& walk) const {
   const BisectorPoint cur = walk.current();
-  if (near_conjugate_point(cur, kOneGeodesic) && end_freely(walk)) return Step::Ended;
+  if (near_conjugate_point(cur, kOneGeodesic) && (end_in_tip(walk, kNoRoom) || end_freely(walk))) return Step::Ended;
   walk.step = std::min(walk.step, longest_step(cur));
   const double h = walk.step;
   if (!(h > 0.0)) return Step::Failed;
@@ -273,6 +276,15 @@ bool EdgeTracer::close(Walk& walk, double h) const {
 bool EdgeTracer::end_freely(Walk& walk) const {
   const BisectorPoint& cur = walk.current();
   const auto end = free_end(rays_, cur.left, cur.right);
+  if (!end) return false;
+  walk.edge.points.push_back({*end, *end});
+  walk.edge.end = TraceEnd::FreeEnd;
+  return true;
+}
+
+bool EdgeTracer::end_in_tip(Walk& walk, double reach) const {
+  const BisectorPoint& cur = walk.current();
+  const auto end = end_at_tip(rays_, cur.left, cur.right, reach * cur.radius());
   if (!end) return false;
   walk.edge.points.push_back({*end, *end});
   walk.edge.end = TraceEnd::FreeEnd;

@@ -14,7 +14,7 @@ enum class TraceEnd {
   Vertex,   ///< another generator is as near: `generators`
   Border,   ///< the face ends: `place`
   Closed,   ///< back at the start
-  FreeEnd,  ///< a cut locus ends in a conjugate point of its site: both rays of the last point are one
+  FreeEnd,  ///< a cut locus ends in a conjugate point of its site, or a tip: both rays of the last point are one
   Stuck,    ///< the bisector can't be followed any further
 };
 
@@ -56,6 +56,7 @@ class EdgeTracer {
   bool end_on_border(Walk& walk, double h, const EdgeOnBorder::Crossing& crossing) const;
   bool close(Walk& walk, double h) const;
   bool end_freely(Walk& walk) const;
+  bool end_in_tip(Walk& walk, double reach) const;
   double longest_step(const BisectorPoint& m) const;
   std::optional<BisectorPoint> predict(const Walk& walk, double h) const;
   std::optional<Vertex> foreseen_vertex(const BisectorPoint& from, double reach) const;
