@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "surface/tangent_frame.h"
+
 namespace geovor {
 namespace {
 
@@ -28,6 +30,15 @@ double extent(const FaceDomain& domain) {
   const Surface& s = domain.surface();
   const Xyz middle = s.position({box.u.middle(), box.v.middle()});
   return (s.position({box.u.lo, box.v.lo}) - middle).norm() + (s.position({box.u.hi, box.v.middle()}) - middle).norm();
+}
+
+/// A geodesic next to the chord, if there is one: across a seam others may lead far round.
+std::optional<SiteRay> to_neighbour(const SiteRays& rays, int site, int other) {
+  const Surface& surface = rays.surface();
+  const Uv from = rays.site(site), to = rays.site(other);
+  const Xyz chord = surface.position(to) - surface.position(from);
+  const auto ray = rays.to(site, to, Polar{chord.norm(), tangent_frame(surface, from).angle_of(chord)});
+  return ray ? ray : rays.to(site, to);
 }
 
 class RaySearch {
@@ -99,7 +110,7 @@ CellStart start_of_cell(const FaceDomain& domain, const SiteRays& rays, const Ne
   RaySearch search(domain, rays, sites, site);
   const int other = sites.nearest_other(site);
   if (other >= 0) {
-    if (const auto ray = rays.to(site, rays.site(other))) {
+    if (const auto ray = to_neighbour(rays, site, other)) {
       const CellStart start = search.along(ray->polar.t, 0.5 * ray->polar.s);
       if (start.kind != CellStart::NotFound && start.kind != CellStart::AtPoint) return start;
     }
