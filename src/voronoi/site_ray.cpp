@@ -152,7 +152,8 @@ std::optional<SiteRay> SiteRays::shoot_near(int site, Uv m, Polar aim, double to
     if (!(miss < last)) return std::nullopt;
     if (asked <= tolerance) last = miss;
     const double relative = miss / std::min(aim.s, std::abs(ray.y));
-    if (relative <= ladder.made_good() && std::min(asked, shot->tolerance) <= tolerance) return moved(ray, m, target);
+    const bool near = relative <= ladder.made_good() || miss <= kRayTolerance * aim.s;  // no trace comes any nearer
+    if (near && std::min(asked, shot->tolerance) <= tolerance) return moved(ray, m, target);
     const Polar step = second_order_step(ray, target.S);
     const double k = std::min({1.0, kMostTurn / std::abs(step.t), kMostStretch * aim.s / std::abs(step.s)});
     aim = {aim.s + k * step.s, aim.t + k * step.t};

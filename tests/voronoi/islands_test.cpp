@@ -113,6 +113,21 @@ TEST(Islands, OnTwoBumpsThereAreTwo) {
   EXPECT_NEAR(d.cells[1].area, d.cells[2].area, 1e-7);
 }
 
+// Geodesics come together behind the farther bump: along the cells' borders y falls to 1e-4 and below zero and on
+// again, where the border of the face cuts off a cut locus beside its free end.
+TEST(Islands, OnTopsOfTwoBumpsOneSiteAndTwoAreProved) {
+  const TestFace face = bumps({{1, 0.2}, {-1, 0.2}});
+  const std::vector<Uv> tops = {{1.0106925727, 0.2074138048}, {-1.0130466417, 0.1999205465}};
+  for (const std::vector<Uv>& sites : {std::vector<Uv>{tops[0]}, tops}) {
+    const VoronoiDiagram d = build_diagram(face.domain(), sites);
+    EXPECT_EQ(unproved(face, d), "") << sites.size() << " sites";
+    EXPECT_EQ(d.warnings.size(), 0u) << d.warnings.front().text;
+    if (sites.size() == 1) {
+      EXPECT_EQ(d.edges.size(), 2u);
+    }
+  }
+}
+
 TEST(Islands, OfThreeSitesWithoutSymmetryTheOneOnTheBumpIsOne) {
   const TestFace face = bumps({{0, 0}});
   const VoronoiDiagram d = build_diagram(face.domain(), {{0.9, 0.25}, {-1.8, -1.6}, {0.1, 0.05}});
