@@ -21,6 +21,12 @@ constexpr double kOwnDisk = 0.5;
 // surface's normal turns by no more than this (radians).
 constexpr double kStepAmongBranches = 0.5;
 
+// In least steps: how exactly the ends of a stretch of border that no ray reaches are found. There each search costs
+// most, a hundred times one that finds its geodesic.
+constexpr double kEndOfUnseen = 40.0;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
 // As a part of the least step.
 constexpr double kBesideSite = 0.1;
 
@@ -62,6 +68,7 @@ struct Label {
   double at = 0.0;
   std::vector<SiteRay> candidates;
   const SiteRay& owner() const { return candidates.front(); }
+  bool found() const { return !candidates.empty(); }
 };
 
 /// Smallest value, at sampled interior points, of the cubic with values g0, g1 and slopes s0, s1 at the ends of a step
@@ -84,24 +91,43 @@ class CycleScan {
     for (int k = 0; k < border.segment_count(cycle); ++k) least_step_ += kLeastStep * border.segment_length(cycle, k);
   }
 
-  std::vector<LabelChange> run() {
-    const Label first = label(beside_sites(0.0), 0.0);
-    const double last_place = first.at + end_;
-    Label last = first;
-    while (last.at < last_place) {
-      const double step = step_from(last);
-      const double at = std::min(beside_sites(next_place(last.at, step)), last_place);
+  BorderScan run() {
+    Label last = label(beside_sites(0.0), 0.0);
+    const double end = last.at + end_;
+    if (!last.found()) begin_unseen(last);
+    double step = next_step(last, 0.0), turns_by = kInf;
+    while (last.at < end) {
+      double at = std::min(beside_sites(next_place(last.at, step)), end);
+      if (at >= turns_by) at = std::min(beside_sites(0.5 * (last.at + turns_by)), turns_by);
       Label here = label(at, step);
-      if (!last.candidates.empty() && !here.candidates.empty()) between(last, here, step, 0);
+      const bool turns = here.found() != last.found();
+      if (turns && at < turns_by && (border_.xyz(place(at)) - border_.xyz(place(last.at))).norm() > end_of_unseen()) {
+        turns_by = at;
+        continue;
+      }
+      if (last.found() && here.found()) between(last, here, step, 0);
+      if (turns) turns_by = kInf, here.found() ? end_unseen(here) : begin_unseen(last);
+      step = next_step(here, turns ? 0.0 : step);
       last = std::move(here);
     }
-    return std::move(changes_);
+    if (!last.found()) scan_.unseen.back().to = place(last.at);
+    return std::move(scan_);
   }
 
  private:
   /// A place of the border; it goes round as often as one likes.
   BorderPlace place(double at) const { return {cycle_, at - end_ * std::floor(at / end_)}; }
   Uv uv(double at) const { return border_.uv(place(at)); }
+
+  /// Ends of unseen stretches are found to this length.
+  double end_of_unseen() const { return kEndOfUnseen * least_step_; }
+  void begin_unseen(const Label& before) {
+    scan_.unseen.push_back({place(before.at), {}, before.found() ? before.owner().site : -1, -1});
+  }
+  void end_unseen(const Label& after) {
+    scan_.unseen.back().to = place(after.at);
+    scan_.unseen.back().after = after.owner().site;
+  }
 
   /// The place, or one a little further on where a site lies in it: from there its own ray can't be told.
   double beside_sites(double at) const {
@@ -119,9 +145,13 @@ class CycleScan {
     return l;
   }
 
+  /// From a place that no ray reaches, where each search costs most, twice the last step.
+  double next_step(const Label& l, double step) const {
+    return l.found() ? step_from(l) : std::max(2.0 * step, end_of_unseen());
+  }
+
   /// Length in space.
   double step_from(const Label& l) const {
-    if (l.candidates.empty()) return least_step_;
     const SiteRay& owner = l.owner();
     const double step = std::max(kStep * owner.polar.s, kStepNearSite * apart(owner.site));
     if (sites_.unique_to(owner.site, owner.polar.s + 2.0 * step)) return std::max(step, least_step_);
@@ -247,7 +277,7 @@ class CycleScan {
     // The two may have changed to other geodesics of theirs on the way to here.
     if (turns_over(a, change->before)) collect(lo, a, at, change->before, depth + 1);
     const BisectorPoint exact = settled_on_border(rays_, border_, place(at), {change->after, change->before});
-    changes_.push_back({place(at), exact.right, exact.left});
+    scan_.changes.push_back({place(at), exact.right, exact.left});
     if (turns_over(change->after, b)) collect(at, change->after, hi, b, depth + 1);
   }
 
@@ -326,13 +356,12 @@ class CycleScan {
   const SiteRays& rays_;
   const NearbySites& sites_;
   double least_step_ = 0.0;
-  std::vector<LabelChange> changes_;
+  BorderScan scan_;
 };
 
 }  // namespace
 
-std::vector<LabelChange> scan_border(const FaceBorder& border, int cycle, const SiteRays& rays,
-                                     const NearbySites& sites) {
+BorderScan scan_border(const FaceBorder& border, int cycle, const SiteRays& rays, const NearbySites& sites) {
   return CycleScan(border, cycle, rays, sites).run();
 }
 

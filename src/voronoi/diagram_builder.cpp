@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <deque>
 #include <functional>
 #include <limits>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "voronoi/border_scan.h"
@@ -64,11 +66,8 @@ class DiagramBuilder {
       if (stopped_) diagram_.warnings.push_back({"unresolved", {}, diagram_.sites[0].uv, "the work was stopped"});
     }
     write_vertices_and_edges();
-    const auto cycle_owner = [this](int cycle) {
-      const auto nearest = sites_.nearest(border_.uv({cycle, 0.0}));
-      return nearest.empty() ? -1 : nearest.front().site;
-    };
-    assemble_cells(border_, cycle_owner, diagram_);
+    assemble_cells(
+        border_, [this](int cycle) { return owner_of(cycle); }, diagram_);
     warn_of_lost_geodesics(sites_, diagram_);
     warn_of_seams();
     return std::move(diagram_);
@@ -102,6 +101,8 @@ class DiagramBuilder {
   void warn(const std::string& kind, const BisectorPoint& m, const std::string& text);
   void warn_of_open_spokes();
   void warn_of_seams();
+  void warn_of_unseen(const UnseenStretch& stretch);
+  int owner_of(int cycle) const;
 
   const FaceDomain& domain_;
   std::vector<Uv> places_;
@@ -190,7 +191,9 @@ void DiagramBuilder::keep(const PartDiagram& part) {
 }
 
 void DiagramBuilder::start_on_border(int cycle) {
-  for (const LabelChange& change : scan_border(border_, cycle, rays_, sites_)) {
+  const BorderScan scan = scan_border(border_, cycle, rays_, sites_);
+  for (const UnseenStretch& stretch : scan.unseen) warn_of_unseen(stretch);
+  for (const LabelChange& change : scan.changes) {
     const SiteRay &before = change.before, &after = change.after;
     const auto tied = sites_.nearer_than(before.polar.s * (1.0 + kTieWindow), before.uv, {before, after});
     std::vector<SiteRay> around = {after};
@@ -199,6 +202,30 @@ void DiagramBuilder::start_on_border(int cycle) {
     sort_around(around);
     if (tied.empty() || !put_knot(around)) open_spokes_of(table_.put_on_border(change.place, {after, before}));
   }
+}
+
+void DiagramBuilder::warn_of_unseen(const UnseenStretch& stretch) {
+  std::vector<int> beside;
+  if (stretch.before >= 0) beside.push_back(stretch.before);
+  if (stretch.after >= 0 && stretch.after != stretch.before) beside.push_back(stretch.after);
+  char to[64];
+  const Uv end = domain_.to_principal(border_.uv(stretch.to));
+  std::snprintf(to, sizeof to, "(%.6g, %.6g)", end.u, end.v);
+  diagram_.warnings.push_back({"unresolved", beside, domain_.to_principal(border_.uv(stretch.from)),
+                               std::string("to the border from here to (u, v) = ") + to +
+                                   " no geodesic was found: the shortest paths of the sites beside it leave the face "
+                                   "and the surface, which is not known there"});
+}
+
+/// The site in whose cell all of a cycle lies; -1 where no ray reaches it.
+int DiagramBuilder::owner_of(int cycle) const {
+  constexpr int kPlaces = 8;  // one will do; a corner may be out of reach
+  for (int i = 0; i < kPlaces; ++i) {
+    const auto nearest =
+        sites_.nearest(border_.uv({cycle, i * static_cast<double>(border_.segment_count(cycle)) / kPlaces}));
+    if (!nearest.empty()) return nearest.front().site;
+  }
+  return -1;
 }
 
 // The border of the cell is one curve in its polar chart. Either all of it is inside the face, with the start, or every

@@ -97,11 +97,19 @@ Uv extreme_of_closed(const Surface& surface, const UvBox& box, const Xyz& n) {
 /// from where the other would have gone, by Newton's method for its start.
 std::optional<Uv> inside_of_gate_without_plane(const FaceDomain& domain, const BorderDistance::Gate& gate, double way) {
   const Surface& surface = domain.surface();
-  std::vector<Uv> starts = {gate.uv + kFirstStart * (Uv{domain.box().u.middle(), domain.box().v.middle()} - gate.uv)};
+  const Uv middle = {domain.box().u.middle(), domain.box().v.middle()};
+  std::vector<Uv> starts = {gate.uv + kFirstStart * (middle - gate.uv)};
   const SiteRays rays(surface, starts);
+  int reached = -1;
   for (int i = 0; i < kMostStarts; ++i) {
     const auto ray = rays.to(i, gate.uv);
-    if (!ray) return std::nullopt;
+    if (!ray) {
+      // The way there leaves the surface; from nearer by it may not.
+      const Uv last_good = reached >= 0 ? starts[reached] : gate.uv;
+      starts.push_back(last_good + 0.5 * (starts.back() - last_good));
+      continue;
+    }
+    reached = i;
     const Xyz inward = ray->T.cross(ray->N).cross(gate.along).normalized();
     const double turn = std::atan2(inward.dot(ray->N), -inward.dot(ray->T));
     const TangentFrame frame = tangent_frame(surface, starts.back());
