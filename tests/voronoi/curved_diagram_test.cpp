@@ -53,6 +53,57 @@ TEST(CurvedDiagram, OnAPatchOfASphereObeysTheLaws) {
   check_patch(TestFace(std::make_shared<Sphere>(Frame{}, 1.0)).rectangle({{0.2, 1.6}, {-0.4, 1.2}}), 15, 8);
 }
 
+/// The vertex in which a cut locus ends freely.
+const DiagramVertex& free_end(const VoronoiDiagram& d) {
+  const auto end = [](const DiagramVertex& v) { return v.sites.size() == 1; };
+  EXPECT_EQ(std::count_if(d.vertices.begin(), d.vertices.end(), end), 1);
+  return *std::find_if(d.vertices.begin(), d.vertices.end(), end);
+}
+
+// Of one site on a cone the cut locus is the line opposite, and ends in the tip.
+TEST(CurvedDiagram, OnAConeEndsTheCutLocusInTheTip) {
+  const auto cone = std::make_shared<Cone>(Frame{}, 2.0, 0.5);
+  const double tip = cone->apex_v();
+  const TestFace face = TestFace(cone).ring({{0, 2 * kPi}, {tip, tip + 6.0}});
+  for (const std::vector<Uv>& sites : {std::vector<Uv>{{1.0, tip + 4.0}}, {{1.0, tip + 4.0}, {4.0, tip + 4.8}}}) {
+    const VoronoiDiagram d = build_diagram(face.domain(), sites);
+    EXPECT_EQ(d.warnings.size(), 0u) << d.warnings.front().kind << " " << d.warnings.front().text
+                                     << d.warnings.front().uv.v;
+    EXPECT_EQ(broken_topology(d), "");
+    EXPECT_EQ(unproved(face, d), "");
+    const DiagramVertex& end = free_end(d);
+    EXPECT_EQ(end.sites.front(), 0);
+    EXPECT_NEAR(end.radius, 4.0, 1e-13);
+    EXPECT_LT((end.xyz - cone->apex()).norm(), 1e-13);
+  }
+}
+
+// A line that turns about an axis which it meets at an angle: r = v, z = v + v^2 / 4.
+class Ogive final : public Surface {
+ public:
+  SurfaceKind kind() const override { return SurfaceKind::Function; }
+  UvBox domain() const override { return {{0.0, 2.0 * kPi}, {0.0, 2.0}}; }
+  std::optional<double> u_period() const override { return 2.0 * kPi; }
+  SurfaceJet jet(Uv p) const override {
+    const Xyz r{std::cos(p.u), std::sin(p.u), 0.0}, q{-std::sin(p.u), std::cos(p.u), 0.0}, z = Xyz::UnitZ();
+    return {p.v * r + (p.v + 0.25 * p.v * p.v) * z, p.v * q, r + (1.0 + 0.5 * p.v) * z, -p.v * r, q, 0.5 * z};
+  }
+  using Surface::jet;
+};
+
+// Its meridians are parabolas: the integral of sqrt(1 + w^2) dv, w = 1 + v / 2.
+TEST(CurvedDiagram, OnAnOgiveEndsTheCutLocusInTheTip) {
+  const TestFace face = TestFace(std::make_shared<Ogive>()).ring({{0.0, 2.0 * kPi}, {0.0, 2.0}});
+  const double v = 1.2;
+  const VoronoiDiagram d = build_diagram(face.domain(), {{1.0, v}});
+  EXPECT_EQ(broken_topology(d), "");
+  EXPECT_EQ(unproved(face, d), "");
+  const auto integral = [](double w) { return w * std::hypot(1.0, w) + std::asinh(w); };
+  const DiagramVertex& end = free_end(d);
+  EXPECT_NEAR(end.radius, integral(1.0 + 0.5 * v) - integral(1.0), 1e-11);
+  EXPECT_LT(end.xyz.norm(), 1e-11);
+}
+
 TEST(CurvedDiagram, OnTheWholeSphereHasSphericalCircumcentresAsVertices) {
   const TestFace face = whole(std::make_shared<Sphere>(Frame{}, 1.0));
   const FaceDomain domain = face.domain();
