@@ -24,7 +24,7 @@ void PrintTo(const Family& family, std::ostream* out) { *out << family.prefix; }
 
 const Family kFamilies[] = {
     {"ff", {"orig", "swaprev", "moeb16"}},
-    {"sph", {"orig", "nurbs", "moeb16"}},
+    {"sph", {"orig", "nurbs", "moeb16", "pow3u", "smooth"}},
     {"oct", {"orig", "axisx"}},
     {"pl", {"orig", "shear5", "skew2", "pow3u", "smooth"}},  // corners without tangent plane
     {"tor", {"orig", "smooth", "moeb64"}},                   // the same, and samples of the border elsewhere
