@@ -104,6 +104,15 @@ class RaySearch {
   int site_;
 };
 
+// Where the two rays of a cut locus nearly agree (radians) its end is beside, and no step leads away from it.
+constexpr double kTwoRays = 0.1;
+
+bool beside_free_end(const CellStart& start) {
+  const SiteRay &one = start.point.left, &other = start.point.right;
+  return start.kind == CellStart::OnBisector && one.site == other.site &&
+         std::abs(wrap_angle(one.polar.t - other.polar.t)) < kTwoRays;
+}
+
 }  // namespace
 
 CellStart start_of_cell(const FaceDomain& domain, const SiteRays& rays, const NearbySites& sites, int site) {
@@ -112,7 +121,8 @@ CellStart start_of_cell(const FaceDomain& domain, const SiteRays& rays, const Ne
   if (other >= 0) {
     if (const auto ray = to_neighbour(rays, site, other)) {
       const CellStart start = search.along(ray->polar.t, 0.5 * ray->polar.s);
-      if (start.kind != CellStart::NotFound && start.kind != CellStart::AtPoint) return start;
+      const bool found = start.kind == CellStart::OnBisector || start.kind == CellStart::OffFace;
+      if (found && !beside_free_end(start)) return start;
     }
   }
   // Alone, or nothing to be had that way: any ray. One may run into the end of the cut locus, several only into a cut
@@ -120,7 +130,8 @@ CellStart start_of_cell(const FaceDomain& domain, const SiteRays& rays, const Ne
   CellStart start;
   for (double t : kDirections) {
     start = search.along(t, kFirstLength * extent(domain));
-    if (start.kind == CellStart::OnBisector || start.kind == CellStart::OffFace) return start;
+    const bool found = start.kind == CellStart::OnBisector || start.kind == CellStart::OffFace;
+    if (found && !beside_free_end(start)) return start;
   }
   return start;
 }

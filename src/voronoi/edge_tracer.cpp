@@ -70,8 +70,12 @@ double turned(const SiteRay& ray, const Xyz& step) {
   return ray.polar.t + ray.polar.s / ray.y * std::atan2(ray.N.dot(step), ray.polar.s + ray.T.dot(step));
 }
 
-bool near_conjugate_point(const BisectorPoint& m, double between) {
-  return m.left.site == m.right.site && std::abs(wrap_angle(m.left.polar.t - m.right.polar.t)) < between;
+/// Whether the two rays of a cut locus come together ahead.
+bool near_conjugate_point(const BisectorPoint& m, double within) {
+  if (m.left.site != m.right.site) return false;
+  const double between = wrap_angle(m.left.polar.t - m.right.polar.t);
+  const BisectorSlope d = bisector_slope(m);
+  return std::abs(between) < within && between * (d.left_angle - d.right_angle) < 0.0;
 }
 
 }  // namespace

@@ -135,5 +135,22 @@ TEST(Islands, OfThreeSitesWithoutSymmetryTheOneOnTheBumpIsOne) {
   EXPECT_EQ(islands(d), std::set<int>{2});
 }
 
+// On the outer equator a site's geodesics run together at pi sqrt(r (R + r)) = 39.2, before the middle between two
+// opposite sites at 40.8: there a cut locus begins that runs on to the middle.
+TEST(Islands, TwoOppositeSitesOnATorusHaveCutLociBetweenThem) {
+  const TestFace face = whole(std::make_shared<Torus>(Frame{}, 20.0, 6.0));
+  for (const std::vector<Uv>& sites :
+       {std::vector<Uv>{{0, 0}, {kPi, 0}}, {{1, 0}, {1 + kPi, 0}}, {{0, 0}, {3.14159, 1e-9}}}) {
+    const VoronoiDiagram d = build_diagram(face.domain(), sites);
+    EXPECT_EQ(unproved(face, d), "");
+    EXPECT_TRUE(d.warnings.empty()) << d.warnings.front().text;
+    EXPECT_EQ(std::count_if(d.vertices.begin(), d.vertices.end(),
+                            [](const DiagramVertex& v) {
+                              return v.sites.size() == 1 && std::abs(v.radius - kPi * std::sqrt(6.0 * 26.0)) < 1e-9;
+                            }),
+              4);
+  }
+}
+
 }  // namespace
 }  // namespace geovor::testing
