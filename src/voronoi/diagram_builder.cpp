@@ -309,7 +309,7 @@ std::optional<SpokeRef> DiagramBuilder::arrive(const TracedEdge& edge) {
       spoke = table_.arrive_at_free_end(last);
       break;
     case TraceEnd::Stuck:
-      // A cut locus that runs into a cone's tip, where there is no tangent plane, ends there as in a conjugate point.
+      // What there is of a cut locus beside its end, where its rays are one to rounding, is kept.
       if (last.left.site == last.right.site) {
         warn("cut_locus", last, "the cut locus of this site ends near here; its last piece is not traced");
         spoke = table_.arrive_at_free_end(last);
