@@ -54,6 +54,13 @@ class Voronoi(ProgramTest):
         self.assertEqual(len(document["sites"]), 12)
         self.assertEqual(len(document["cells"]), 12)
 
+    def test_sites_on_crossings_of_knot_lines_have_whole_diagrams(self):
+        # The wave is odd in u: along v = const geodesics leave u = 0 by the fourth power of the way, and knots lie at
+        # every third of a unit.
+        for uv in ("0,1", "0,0.3333333333333333", "1e-6,1"):
+            self.write("sites.csv", f"u,v\n{uv}\n")
+            self.assertEqual(self.diagram("wave.step", "--sites", "sites.csv")["warnings"], [])
+
     def test_cells_of_the_wave_add_up_to_the_face(self):
         document = self.diagram_of_twenty()
         # Area of the graph of sin u cos v over [-3,3]^2: integral of sqrt(1 + cos^2 u cos^2 v + sin^2 u sin^2 v), by the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "geodesic/trace.h"
@@ -128,6 +129,41 @@ TEST(TraceAcrossKnots, TouchingAKnotLineMakesWay) {
     ASSERT_EQ(path.status, TraceStatus::Converged);
     EXPECT_LT(path.steps, 300);
     EXPECT_LT(gap(spline, path.end.p, on.end.p), 1e-10);
+  }
+}
+
+// A sheet z(u, v) over [0, 3]^2 with these Bernstein coefficients.
+SplineData bicubic_graph(const std::function<double(int, int)>& z) {
+  SplineData data;
+  data.u_knots = data.v_knots = {0, 0, 0, 0, 3, 3, 3, 3};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) data.poles.push_back({1.0 * i, 1.0 * j, z(i, j)});
+  return data;
+}
+
+// About v = 1.5 both sheets are odd in v, but for what depends on u alone, so that geodesics along u = const have no
+// curvature there: they leave the line by the third power of the way (z = q(u) + o(v)) or the fourth (z = a(u) o(v)).
+TEST(TraceAcrossKnots, PathsThatLeaveAKnotLineMoreSlowlyThanAParabolaMakeWay) {
+  const double odd[] = {-0.5, 0.7, -0.7, 0.5}, rise[] = {0.2, 0.5, 0.9, 1.6};
+  const auto third = [&](int i, int j) { return rise[i] + odd[j]; };
+  const auto fourth = [&](int i, int j) { return rise[i] * odd[j]; };
+  constexpr double line = 1.25;
+  for (const SplineData& data : {bicubic_graph(third), bicubic_graph(fourth)}) {
+    const BSplineSurface plain = data.surface(), more = insert_u_knot(insert_u_knot(data, line), 0.8).surface();
+    for (const double beside : {0.0, 1e-15, 1e-12, 1e-9, 1e-6, -1e-15, -1e-9, -1e-6}) {
+      for (const double towards : {1.0, -1.0}) {
+        for (const double tolerance : {1e-4, 1e-8, 1e-12}) {
+          TraceOptions options;
+          options.tolerance = tolerance;
+          const TraceResult path = trace_geodesic(more, {line + beside, 1.5}, {0.0, towards}, 1.4, options);
+          const TraceResult same = trace_geodesic(plain, {line + beside, 1.5}, {0.0, towards}, 1.4);
+          ASSERT_EQ(path.status, TraceStatus::Converged) << beside << ", " << tolerance;
+          EXPECT_LT(path.steps, 100) << beside << ", " << tolerance;
+          EXPECT_LT(gap(plain, path.end.p, same.end.p), 10.0 * tolerance) << beside;
+          EXPECT_NEAR(path.end.y, same.end.y, 10.0 * tolerance) << beside;
+        }
+      }
+    }
   }
 }
 
