@@ -15,7 +15,10 @@ namespace geovor::testing {
 namespace {
 
 constexpr double kEqual = 1e-12;  ///< relative difference of the distances from a point to its sites
-constexpr int kPointsAnEdge = 3;
+
+// Of the stored points of all edges, one after the other, every third is looked at: 2,977 of 8,933. All would take two
+// and a half minutes.
+constexpr int kEvery = 3;
 
 struct Scene {
   std::string name;
@@ -66,9 +69,10 @@ TEST_P(Equidistance, HoldsAtVerticesAndAlongEdges) {
   }
   EXPECT_LE(worst, kEqual) << "at a vertex";
   worst = 0.0;
+  int point = 0;
   for (const DiagramEdge& e : diagram_.edges) {
-    for (int k = 1; k <= kPointsAnEdge; ++k) {
-      const EdgePoint& p = e.points[e.points.size() * k / (kPointsAnEdge + 1)];
+    for (const EdgePoint& p : e.points) {
+      if (point++ % kEvery != 0) continue;
       const double a = distance(e.left, p.radius, p.left_angle, p.xyz);
       const double b = distance(e.right, p.radius, p.right_angle, p.xyz);
       worst = std::max(worst, std::abs(a - b) / p.radius);
