@@ -106,9 +106,9 @@ int euler_number(const FaceDomain& domain, const VoronoiDiagram& d) {
   const bool disks = d.sites.size() > 1 &&
                      std::all_of(d.cells.begin(), d.cells.end(), [](const auto& c) { return c.loops.size() == 1; });
   const DiagramCharts charts = disks ? DiagramCharts{} : chart_cells(domain, d);
+  const bool antipode =
+      std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.spokes.empty(); });
   for (const DiagramCell& cell : d.cells) {
-    const bool antipode =
-        std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.spokes.empty(); });
     if (cell.loops.empty() && !antipode) count += 2;  // a closed surface
     if (d.sites.size() == 1 && antipode) ++count;     // the same without a point
     if (disks) ++count;
