@@ -11,21 +11,45 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// A p-curve between two knots is halved at least so often, so that no bend hides between samples, and at most so often.
+// A p-curve between two knots is halved at least so often, so that no bend hides between samples, and at most so often:
+// deep enough for parameters that run a thousand times as fast at one end as at the other.
 constexpr int kFewestHalvings = 2;
-constexpr int kMostHalvings = 12;
+constexpr int kMostHalvings = 20;
 
 // Newton's steps from a polyline to its curve; each doubles the digits.
 constexpr int kNewtonSteps = 8;
+
+// Halvings of a segment of the polyline: what is left of it is rounding.
+constexpr int kRootHalvings = 53;
+
+// Chords by which the way to a place is measured: a full turn has four quarters of some length.
+constexpr int kWayChords = 4;
+// How much longer than the straight way in space the straight way in the parameters may be: under any stretching of u
+// and v each for itself it is no longer than the two legs of a right angle.
+constexpr double kMostDetour = 2.0;
 
 UvBox grown(UvBox box, Uv p) {
   return {{std::min(box.u.lo, p.u), std::max(box.u.hi, p.u)}, {std::min(box.v.lo, p.v), std::max(box.v.hi, p.v)}};
 }
 
-double distance_to(const UvBox& box, Uv p, double su, double sv) {
-  const double du = std::max({box.u.lo - p.u, p.u - box.u.hi, 0.0}) * su;
-  const double dv = std::max({box.v.lo - p.v, p.v - box.v.hi, 0.0}) * sv;
-  return std::hypot(du, dv);
+/// The distance from x to the segment from a to b.
+double distance_to_segment(const Xyz& x, const Xyz& a, const Xyz& b) {
+  const Xyz way = b - a;
+  const double square = way.squaredNorm();
+  const double f = square > 0.0 ? std::clamp((x - a).dot(way) / square, 0.0, 1.0) : 0.0;
+  return (a + f * way - x).norm();
+}
+
+/// The length in space of the straight way in the parameters: tells two sides of a seam apart, which are one in space.
+double length_of_way(const Surface& surface, Uv a, Uv b) {
+  double length = 0.0;
+  Xyz before = surface.position(a);
+  for (int i = 1; i <= kWayChords; ++i) {
+    const Xyz x = surface.position(lerp(a, b, static_cast<double>(i) / kWayChords));
+    length += (x - before).norm();
+    before = x;
+  }
+  return length;
 }
 
 }  // namespace
@@ -52,8 +76,12 @@ FaceOutline::FaceOutline(const CadModel& model, const CadFace& face, double defl
       std::vector<double> stops = c.pcurve->breaks(c.range);
       stops.push_back(c.range.hi);
       for (double stop : stops) sample(side, side.t.back(), stop, deflection, 0);
-      side.box = {{kInf, -kInf}, {kInf, -kInf}};
-      for (Uv p : side.uv) side.box = grown(side.box, p), box_ = grown(box_, p);
+      for (Uv p : side.uv) {
+        box_ = grown(box_, p);
+        const Xyz x = surface_->position(p);
+        side.arc.push_back(side.xyz.empty() ? 0.0 : side.arc.back() + (x - side.xyz.back()).norm());
+        side.xyz.push_back(x);
+      }
       side.pole = model.edges[c.edge].degenerate();
       sides_.push_back(std::move(side));
     }
@@ -78,6 +106,7 @@ void FaceOutline::sample(OutlineSide& side, double t0, double t1, double deflect
   }
   side.t.push_back(t1);
   side.uv.push_back(b);
+  side.deviation = std::max(side.deviation, (M - 0.5 * (A + B)).norm());
 }
 
 bool FaceOutline::has(SideKind wanted) const {
@@ -88,17 +117,56 @@ SideKind FaceOutline::kind(const OutlineSide& side) {
   return side.pole ? SideKind::Pole : side.partner >= 0 ? SideKind::Seam : SideKind::Border;
 }
 
-// Along a pole u means nothing in space: there the nearest place is the one with the nearest parameters.
+// Places are compared in space: where the parameters are stretched (Su = 0 on a side, say) the metric at p says nothing
+// of places beside it. From a point of the polyline that is far, no segment within that distance along it can be near.
 OutlinePlace FaceOutline::nearest(Uv p, SideKind wanted, double reach) const {
   if (!has(wanted)) return {};
-  const SurfaceJet j = surface_->jet(p);
-  const bool pole = wanted == SideKind::Pole;
-  const double su = pole ? 1.0 / box_.u.length() : j.Su.norm(), sv = pole ? 1.0 / box_.v.length() : j.Sv.norm();
+  if (wanted == SideKind::Pole) return nearest_pole(p, reach);
+  const Xyz x = surface_->position(p);
   OutlinePlace best;
-  double least = pole ? kInf : reach;
+  double least = kMostDetour * reach;
   for (int i = 0; i < static_cast<int>(sides_.size()); ++i) {
     const OutlineSide& s = sides_[i];
-    if (kind(s) != wanted || distance_to(s.box, p, su, sv) > least) continue;
+    if (kind(s) != wanted) continue;
+    const double margin = reach + 2.0 * s.deviation;  // measured at one point of each segment, it may be more beside it
+    for (size_t k = 0; k + 1 < s.t.size();) {
+      const double clear = (s.xyz[k] - x).norm() - margin;
+      if (clear > s.arc[k + 1] - s.arc[k]) {
+        k = static_cast<size_t>(std::upper_bound(s.arc.begin(), s.arc.end(), s.arc[k] + clear) - s.arc.begin()) - 1;
+        continue;
+      }
+      if (distance_to_segment(x, s.xyz[k], s.xyz[k + 1]) <= margin) {
+        const double t = foot(s, k, x), off = (surface_->position(s.at(t)) - x).norm();
+        const double way = length_of_way(*surface_, p, s.at(t));
+        if (off <= reach && way <= least) least = way, best = {i, t, off};
+      }
+      ++k;
+    }
+  }
+  return best;
+}
+
+// Along the chord the curve between two points of the polyline ascends, whatever its speed.
+double FaceOutline::foot(const OutlineSide& side, size_t segment, const Xyz& x) const {
+  double lo = side.t[segment], hi = side.t[segment + 1];
+  const Xyz chord = side.xyz[segment + 1] - side.xyz[segment];
+  if (!((x - side.xyz[segment]).dot(chord) > 0.0)) return lo;
+  if (!((side.xyz[segment + 1] - x).dot(chord) > 0.0)) return hi;
+  for (int i = 0; i < kRootHalvings; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    ((surface_->position(side.at(middle)) - x).dot(chord) < 0.0 ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+// Along a pole u means nothing in space: the nearest place is the one with the nearest parameters.
+OutlinePlace FaceOutline::nearest_pole(Uv p, double reach) const {
+  const double su = 1.0 / box_.u.length(), sv = 1.0 / box_.v.length();
+  OutlinePlace best;
+  double least = kInf;
+  for (int i = 0; i < static_cast<int>(sides_.size()); ++i) {
+    const OutlineSide& s = sides_[i];
+    if (!s.pole) continue;
     for (size_t k = 0; k + 1 < s.t.size(); ++k) {
       const UvVec way = s.uv[k + 1] - s.uv[k], to = p - s.uv[k];
       const double square = way.u * way.u * su * su + way.v * way.v * sv * sv;
@@ -118,8 +186,7 @@ OutlinePlace FaceOutline::nearest(Uv p, SideKind wanted, double reach) const {
     if (!(square > 0.0)) break;
     best.t = std::clamp(best.t + dot / square, s.t.front(), s.t.back());
   }
-  const UvVec gap = p - s.at(best.t);
-  best.off = pole ? (j.S - surface_->position(s.uv.front())).norm() : std::hypot(gap.u * su, gap.v * sv);
+  best.off = (surface_->position(p) - s.xyz.front()).norm();
   if (!(best.off <= reach)) best.side = -1;
   return best;
 }

@@ -18,15 +18,17 @@ struct OutlineSide {
   int next = -1;          ///< the side that follows in the loop
   std::vector<double> t;  ///< ascending
   std::vector<Uv> uv;
+  std::vector<Xyz> xyz;     ///< of the points
+  std::vector<double> arc;  ///< length of the polyline in space up to each
+  double deviation = 0.0;   ///< of the curve's middles from those of the polyline's segments, at most
   Curve2Ptr pcurve;
-  UvBox box;
   Uv at(double parameter) const;
 };
 
 struct OutlinePlace {
   int side = -1;
   double t = 0.0;
-  double off = 0.0;  ///< distance in space, to first order (to a pole: true)
+  double off = 0.0;  ///< distance in space
 };
 
 /// Which sides of an outline a question is about.
@@ -44,7 +46,8 @@ class FaceOutline {
   static SideKind kind(const OutlineSide& side);
   bool has(SideKind kind) const;
 
-  /// The nearest place of the sides of a kind; side -1 where nothing lies within `reach` (space).
+  /// The nearest place of the sides of a kind, by the way to it in the parameter plane; side -1 where nothing lies
+  /// within `reach` (space).
   OutlinePlace nearest(Uv p, SideKind kind, double reach) const;
 
   /// The place where the segment from a to b first meets a seam whose other side is moved by -shift; side -1: nowhere.
@@ -55,6 +58,9 @@ class FaceOutline {
 
  private:
   void sample(OutlineSide& side, double t0, double t1, double deflection, int depth) const;
+  OutlinePlace nearest_pole(Uv p, double reach) const;
+  /// The parameter at which a segment of a side passes x.
+  double foot(const OutlineSide& side, size_t segment, const Xyz& x) const;
 
   SurfacePtr surface_;
   std::vector<OutlineSide> sides_;

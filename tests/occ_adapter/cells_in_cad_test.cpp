@@ -9,9 +9,13 @@
 #include <GProp_GProps.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_BezierSurface.hxx>
 #include <TColStd_Array2OfReal.hxx>
+#include <TColgp_Array2OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <optional>
@@ -62,6 +66,19 @@ TopoDS_Face bumps(const std::vector<Uv>& centres) {
   GeomAPI_PointsToBSplineSurface spline;
   spline.Interpolate(z, -2.0, kStep, -2.0, kStep);
   return BRepBuilderAPI_MakeFace(spline.Surface(), Precision::Confusion()).Face();
+}
+
+/// (10 (3 u^2 - 2 u^3), 10 v, 8 v (1 - v)), a piece of a parabolic cylinder: Su = 0 where u is 0 or 1. `power`: (10
+/// u^3,
+/// ...), where Suu is 0 as well.
+TopoDS_Face stretched_sheet(bool power) {
+  TColgp_Array2OfPnt poles(1, 4, 1, 3);
+  for (int i = 1; i <= 4; ++i) {
+    const double x = i == 4 || (i == 3 && !power) ? 10.0 : 0.0;
+    for (int k = 1; k <= 3; ++k) poles(i, k) = gp_Pnt(x, 5.0 * (k - 1), k == 2 ? 4.0 : 0.0);
+  }
+  const TopoDS_Face bezier = BRepBuilderAPI_MakeFace(new Geom_BezierSurface(poles), Precision::Confusion()).Face();
+  return TopoDS::Face(BRepBuilderAPI_NurbsConvert(bezier).Shape());
 }
 
 class CellsInCad : public testing::Test {
@@ -200,6 +217,29 @@ TEST_F(CellsInCad, AcrossTheSeamOfASplineACellIsTwoFaces) {
   const std::string spline = file_of(BRepBuilderAPI_NurbsConvert(tube).Shape());
   expect_faces(spline, 1, at({Xyz(10, 0, 15), Xyz(-10, 0, 15)}), 600.0 * pi, 3);
 }
+
+// The two sides at Su = 0 are places apart, though by the metric of one the other is near.
+TEST_F(CellsInCad, ASideOnWhichTheParametersStandStillIsNoOtherSide) {
+  for (bool power : {false, true}) {
+    const std::string file = file_of(stretched_sheet(power));
+    for (int count : {1, 2, 5}) expect_faces(file, 1, placed(count));
+  }
+}
+
+class StretchedFamilies : public CellsInCad, public testing::WithParamInterface<const char*> {};
+
+TEST_P(StretchedFamilies, CellsAreFaces) {
+  const std::string file = test::shared_file(GetParam());
+  if (file.empty()) {
+    if (const char* ci = std::getenv("CI"); ci != nullptr && std::string(ci) == "true") FAIL() << GetParam();
+    GTEST_SKIP() << GetParam() << " is not there; set GEOVOR_SHARED";
+  }
+  expect_faces(file, 1, placed(4));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, StretchedFamilies,
+                         testing::Values("faces/pl_pow3u.step", "faces/pl_smooth.step", "faces/cyl_pow3uv.step",
+                                         "faces/tor_pow3u.step", "faces/sph_smooth.step"));
 
 }  // namespace
 }  // namespace geovor
