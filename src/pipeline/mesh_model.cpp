@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <set>
 
@@ -132,6 +133,47 @@ void describe(const CadFace& face, const BorderPoints& border, const FaceMesh& p
   }
 }
 
+/// One face: its triangles into `part`, what became of it into `report`.
+void mesh_one(const CadModel& model, const CadFace& face, const BorderPoints& border, const SizeRule& rule,
+              FaceMesh& part, FaceReport& report) {
+  const auto start = Clock::now();
+  if (face.surface) {
+    part = mesh_face(face, border, rule);
+    report.face_area = face_area(model, face).value;
+  } else {
+    part.why = face.problems.empty() ? "it has no surface that can be used" : face.problems.front();
+  }
+  if (part.ok) {
+    describe(face, border, part, report);
+  } else {
+    report.why = part.why + "; repair the face in the CAD system, or leave it out with --faces";
+  }
+  report.seconds = seconds_since(start);
+}
+
+/// How many faces are done, and whether the work is to stop; for several threads.
+class Progress {
+ public:
+  Progress(int total, const std::function<bool(int, int)>& report) : total_(total), report_(report) {}
+
+  bool stopped() {
+    const std::lock_guard lock(mutex_);
+    return stopped_;
+  }
+
+  void add() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (report_ && !report_(done_, total_)) stopped_ = true;
+  }
+
+ private:
+  std::mutex mutex_;
+  int done_ = 0, total_;
+  bool stopped_ = false;
+  const std::function<bool(int, int)>& report_;
+};
+
 }  // namespace
 
 double smallest_size(const MeshOptions& options, const CadModel& model) {
@@ -158,37 +200,18 @@ MeshResult mesh_model(const CadModel& model, const MeshOptions& options) {
   start = Clock::now();
   std::vector<FaceMesh> parts(total);
   result.faces.resize(total);
-  std::mutex progress_mutex;
-  int done = 0;
-  bool stopped = false;
+  Progress progress(total, options.progress);
   const auto body = [&](int i) {
     const CadFace& face = model.faces[faces[i]];
     FaceReport& report = result.faces[i];
     report.face = face.number;
-    {
-      const std::lock_guard lock(progress_mutex);
-      if (stopped) {
-        report.status = FaceStatus::Stopped;
-        report.why = "the work was stopped before it";
-        return;
-      }
+    if (progress.stopped()) {
+      report.status = FaceStatus::Stopped;
+      report.why = "the work was stopped before it";
+      return;
     }
-    const auto face_start = Clock::now();
-    if (face.surface) {
-      parts[i] = mesh_face(face, border, rule);
-      report.face_area = face_area(model, face).value;
-    } else {
-      parts[i].why = face.problems.empty() ? "it has no surface that can be used" : face.problems.front();
-    }
-    if (parts[i].ok) {
-      describe(face, border, parts[i], report);
-    } else {
-      report.why = parts[i].why + "; repair the face in the CAD system, or leave it out with --faces";
-    }
-    report.seconds = seconds_since(face_start);
-    const std::lock_guard lock(progress_mutex);
-    ++done;
-    if (options.progress && !options.progress(done, total)) stopped = true;
+    mesh_one(model, face, border, rule, parts[i], report);
+    progress.add();
   };
   if (options.for_each) {
     options.for_each(total, body);

@@ -15,10 +15,9 @@ using PlacingProgress = std::function<bool(int placed, int total)>;
 
 /// `count` places in the face by farthest points: each next one is a point whose reach (its geodesic distance to the
 /// places so far, or twice its distance in space to the border where that is less and the face is wide enough) is the
-/// largest; it lies at a vertex
-/// of their Voronoi diagram, on an edge or on a geodesic near the border. The first is the farthest from a
-/// point just inside the border's extreme point in a direction of space that the seed picks (of a closed face: from its
-/// extreme point).
+/// largest; it lies at a vertex of their Voronoi diagram, on an edge or on a geodesic near the border. The first is the
+/// farthest from a point just inside the border's extreme point in a direction of space that the seed picks (of a
+/// closed face: from its extreme point).
 /// Of equally far points the first along x, y, z in space comes first, so that the same face under another
 /// parameterization has the same places. From kOneByOne places on they come in batches, within which a reach may be as
 /// small as kBatchReach of the largest: no two places are nearer to each other than kBatchReach of the largest reach
