@@ -16,16 +16,13 @@ namespace {
 // The border's polyline lies within this part of the face's size.
 constexpr double kBorderDeflection = 1e-6;
 
-// Areas of the cells and the face agree to this where all is well.
-constexpr double kAreasAgree = 1e-3;
-
 // Of a picture: along edges its patches are some 6 units high on a usual page.
 constexpr int kRasterRows = 128;
 constexpr int kRasterColumns = 40;
 
 std::string text(double x) {
   char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", x);
+  std::snprintf(buffer, sizeof buffer, "%.9g", x);
   return buffer;
 }
 
@@ -60,15 +57,17 @@ std::vector<Uv> sites_of(const FaceDomain& domain, const VoronoiRequest& request
   return place_sites(domain, request.count, request.seed, request.placing);
 }
 
-void check_areas(const FaceDomain& domain, double face_area, VoronoiDiagram& diagram) {
-  if (diagram.cells.size() == 1 && diagram.cells[0].loops.empty()) diagram.cells[0].area = face_area;
+/// By the bound of the certificate.
+void check_areas(const FaceDomain& domain, const Area& face_area, VoronoiDiagram& diagram) {
+  const double whole = face_area.value;
+  if (diagram.cells.size() == 1 && diagram.cells[0].loops.empty()) diagram.cells[0].area = whole;
   double sum = 0.0;
   for (const DiagramCell& cell : diagram.cells) sum += cell.area;
-  if (std::abs(sum - face_area) <= kAreasAgree * face_area) return;
+  if (std::abs(sum - whole) <= kAreasAddUp * whole + face_area.error) return;
   diagram.warnings.push_back({"areas_differ",
                               {},
                               {domain.box().u.middle(), domain.box().v.middle()},
-                              "the areas of the cells add up to " + text(sum / face_area) + " of the face's"});
+                              "the areas of the cells add up to " + text(sum / whole) + " of the face's"});
 }
 
 }  // namespace
@@ -89,7 +88,7 @@ VoronoiResult voronoi_face(const CadModel& model, const CadFace& face, const Vor
   options.tolerance = request.tolerance;
   options.progress = request.progress;
   result.diagram = build_diagram(domain, sites, options);
-  check_areas(domain, result.face_area, result.diagram);
+  check_areas(domain, area, result.diagram);
   result.dual = dual_of(domain.surface(), result.diagram, request.raster ? DualPaths::Drawn : DualPaths::None);
   result.surface = face.surface;
   result.deflection = deflection;
