@@ -210,8 +210,12 @@ void warn_of_exits(const CadModel& model, const CadFace& face, const VoronoiDiag
 }  // namespace
 
 int run(const VoronoiArguments& arguments) {
-  check_outputs(arguments.outputs, arguments.input);
+  check_outputs(arguments.outputs, arguments.input, arguments.sites);
   const SitesFile file = arguments.sites.empty() ? SitesFile{} : read_sites_file(arguments.sites);
+  if (arguments.snap && !file.in_space) {
+    throw Error(ErrorCode::Usage,
+                arguments.sites + ": --snap moves sites in space, and these are u,v; leave it out, or give x,y,z");
+  }
   Stopwatch watch;
   const CadModel model = in_context(arguments.input, [&] { return read_cad(arguments.input); });
   const double seconds_read = watch.lap();

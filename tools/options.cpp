@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "context.h"
@@ -43,7 +44,8 @@ CLI::Validator whole_number_check(int least) {
       [least](std::string& text) -> std::string {
         int value = 0;
         if (CLI::detail::lexical_cast(text, value) && value >= least) return {};
-        return fmt::format("'{}' won't do; give a whole number of {} or more", text, least);
+        return fmt::format("'{}' won't do; give a whole number from {} to {}", text, least,
+                           std::numeric_limits<int>::max());
       },
       "");
 }
@@ -161,14 +163,17 @@ std::string one_line(std::string text) {
   throw Error(ErrorCode::Usage, fmt::format("{}; see geovor{} --help", one_line(message), command));
 }
 
-std::optional<int> face_of(const std::string& text, const CLI::App& command) {
-  return command.count("--face") > 0 ? std::optional(parse_face(text)) : std::nullopt;
+std::optional<int> face_of(const std::string& text, const std::string& input, const CLI::App& command) {
+  if (command.count("--face") == 0) return std::nullopt;
+  return in_context(input, [&] { return parse_face(text); });
 }
 
 CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI::App& command) {
   check_endings(arguments.outputs, kMeshEndings);
   if (command.count("--report") > 0) check_endings({arguments.report}, kReportEndings);
-  if (command.count("--faces") > 0) arguments.faces = parse_face_list(faces);
+  if (command.count("--faces") > 0) {
+    arguments.faces = in_context(arguments.input, [&] { return parse_face_list(faces); });
+  }
   arguments.progress = progress_wish(command);
   if (arguments.min_size > arguments.size) {
     throw Error(ErrorCode::Usage,
@@ -179,7 +184,7 @@ CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI
 
 CommandLine checked(VoronoiArguments arguments, const std::string& face, const CLI::App& command) {
   check_endings(arguments.outputs, kVoronoiEndings);
-  arguments.face = face_of(face, command);
+  arguments.face = face_of(face, arguments.input, command);
   arguments.progress = progress_wish(command);
   if (arguments.sites.empty() && arguments.count == 0 && arguments.spacing == 0.0) {
     throw Error(ErrorCode::Usage, "voronoi needs sites; give --sites FILE, --count N or --spacing LENGTH");
@@ -189,7 +194,7 @@ CommandLine checked(VoronoiArguments arguments, const std::string& face, const C
 
 CommandLine checked(DistanceArguments arguments, const std::string& face, const CLI::App& command) {
   check_endings(arguments.outputs, kDistanceEndings);
-  arguments.face = face_of(face, command);
+  arguments.face = face_of(face, arguments.input, command);
   arguments.from = in_context("--from", [&] { return parse_point(arguments.from_text); });
   arguments.to = in_context("--to", [&] { return parse_point(arguments.to_text); });
   return arguments;

@@ -84,10 +84,13 @@ void check_endings(const std::vector<std::string>& paths, const std::vector<std:
   }
 }
 
-void check_outputs(const std::vector<std::string>& paths, const std::string& input) {
+void check_outputs(const std::vector<std::string>& paths, const std::string& input, const std::string& sites) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (same_file(paths[i], input)) {
       throw Error(ErrorCode::Usage, fmt::format("{}: is the input itself; choose another output", paths[i]));
+    }
+    if (!sites.empty() && same_file(paths[i], sites)) {
+      throw Error(ErrorCode::Usage, fmt::format("{}: is the sites file; choose another output", paths[i]));
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (!same_file(paths[i], paths[k])) continue;

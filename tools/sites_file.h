@@ -18,8 +18,8 @@ struct SitesFile {
   std::vector<SiteRow> rows;
 };
 
-/// Reads a CSV file with the header `u,v` or `x,y,z`; `#` starts a comment, empty lines don't count.
-/// Throws Error(Usage) that names the line.
+/// Reads a CSV file with the header `u,v` or `x,y,z`, in any case, with or without a byte-order mark; `#` starts a
+/// comment, empty lines don't count. Throws Error(Usage) that names the line.
 SitesFile read_sites_file(const std::string& path);
 
 }  // namespace geovor

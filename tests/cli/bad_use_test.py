@@ -132,7 +132,7 @@ class BadCommandLine(ProgramTest):
         self.mesh_fails("Face2 is not there", "--size", 5, "-o", "out.stl", "--faces", "1-2")
 
     def test_a_list_of_faces_that_is_none(self):
-        self.mesh_fails("'x' names no face", "--size", 5, "-o", "out.stl", "--faces", "1,x")
+        self.mesh_fails("sphere.step: 'x' names no face", "--size", 5, "-o", "out.stl", "--faces", "1,x")
 
     def test_a_face_of_number_zero(self):
         self.mesh_fails("'0' names no face", "--size", 5, "-o", "out.stl", "--faces", "0")
@@ -198,6 +198,26 @@ class BadSites(ProgramTest):
 
     def test_a_sites_file_that_is_missing(self):
         self.voronoi_fails("missing.csv", "--sites", "missing.csv")
+
+    def test_a_sites_file_that_is_a_folder(self):
+        (self.folder / "sites.csv").mkdir()
+        self.voronoi_fails("sites.csv: is a folder", "--sites", "sites.csv")
+
+    def test_an_output_that_is_the_sites_file(self):
+        name = self.write("sites.json", "u,v\n0.1,0.2\n")
+        self.fail_with(USAGE, "sites.json: is the sites file", "voronoi", sample("wave.step"), "--sites", name,
+                       "-o", "./sites.json")
+        self.assertEqual((self.folder / name).read_text(), "u,v\n0.1,0.2\n")
+
+    def test_snapping_of_sites_that_are_parameters(self):
+        name = self.write("sites.csv", "u,v\n0.1,0.2\n")
+        self.voronoi_fails("sites.csv: --snap moves sites in space, and these are u,v", "--sites", name, "--snap")
+
+    def test_a_count_beyond_the_largest(self):
+        self.voronoi_fails("'99999999999' won't do; give a whole number from 1 to 2147483647", "--count", 99999999999)
+
+    def test_a_face_that_is_no_number_names_the_file_too(self):
+        self.voronoi_fails("wave.step: 'Facex' names no face", "--count", 3, "--face", "Facex")
 
     def test_a_sites_file_without_header(self):
         self.sites_fail("sites.csv: line 1: the header is missing", "0.1,0.2\n")

@@ -54,6 +54,13 @@ class Voronoi(ProgramTest):
         self.assertEqual(len(document["sites"]), 12)
         self.assertEqual(len(document["cells"]), 12)
 
+    def test_the_header_may_be_as_spreadsheets_write_it(self):
+        self.write("sites.csv", "u,v\n0.5,0.25\n-1,0\n")
+        plain = self.diagram("wave.step", "--sites", "sites.csv")
+        for text in (b"\xef\xbb\xbfu,v\r\n0.5,0.25\r\n-1,0\r\n", b"U,V\n0.5,0.25\n-1,0\n"):
+            self.write("sites.csv", text)
+            self.assertEqual(self.diagram("wave.step", "--sites", "sites.csv"), plain)
+
     def test_sites_on_crossings_of_knot_lines_have_whole_diagrams(self):
         # The wave is odd in u: along v = const geodesics leave u = 0 by the fourth power of the way, and knots lie at
         # every third of a unit.
