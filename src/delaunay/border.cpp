@@ -8,13 +8,24 @@
 #include <queue>
 #include <tuple>
 
+#include "delaunay/arc_length.h"
 #include "delaunay/surface_probe.h"
 
 namespace geovor {
 namespace {
 
-// Stations on each analytic piece of an edge, where size and speed are looked at.
-constexpr int kStationsPerPiece = 24;
+// Stations of an edge, where size and turn are looked at: at equal steps of its length.
+constexpr double kStationsPerSize = 2.0;
+constexpr int kFewestStations = 24;
+constexpr int kMostStations = 4000;
+// The ends of an edge are looked at this part of a step inside: there the speed of a parameter may vanish.
+constexpr double kInside = 1e-3;
+// Sizes that curvature asks for are taken in steps of this many an octave, far above the noise of second derivatives, so
+// that they are the same under every parameterization; the shift keeps round ratios away from the steps' ends.
+constexpr double kStepsPerOctave = 512.0;
+constexpr double kShiftOfSteps = 0.3819660112501051;
+// A number that is rounded to a whole one is lowered by this part, so that rounding does not decide a tie.
+constexpr double kRounding = 1e-9;
 // However coarse the rule: a segment turns by no more than this, so that a hole stays a hole.
 constexpr double kLargestTurn = std::numbers::pi / 4;
 
@@ -32,9 +43,9 @@ struct Use {
 
 // One edge, looked at closely.
 struct Stations {
-  std::vector<double> t;
-  std::vector<double> s;  // arc length from the first
+  std::vector<double> s;  // arc length from the start
   std::vector<double> h;
+  std::optional<ArcLength> way;
   double turn = 0.0;  // of the tangent, in all
 };
 
@@ -60,6 +71,12 @@ double share_of_segments(double count, double s, double h0, double h1) {
   return std::clamp(std::abs(growth) > kEven ? std::expm1(x * growth) / growth : x, 0.0, 1.0);
 }
 
+// h <= size, lowered to the next step; values that agree with the size to rounding are the size.
+double in_steps(double h, double size) {
+  const double steps = std::ceil(kStepsPerOctave * std::log2(size / h) - kShiftOfSteps);
+  return steps > 0.0 ? size * std::exp2(-steps / kStepsPerOctave) : size;
+}
+
 class Sampler {
  public:
   Sampler(const CadModel& model, const SizeRule& rule, const std::vector<double>& finer)
@@ -68,6 +85,7 @@ class Sampler {
 
  private:
   double surface_curvature(const Use& use, double t) const;
+  double size_at(int edge, double t) const;
   void collect_uses();
   void look_at(int edge);
   void grade();
@@ -102,34 +120,30 @@ double Sampler::surface_curvature(const Use& use, double t) const {
   return probes_[use.face]->at({p.x(), p.y()}).curvature;
 }
 
+double Sampler::size_at(int edge, double t) const {
+  double curvature = curve_curvature(model_.edges[edge].curve->jet(t));
+  for (const Use& use : uses_[edge]) curvature = std::max(curvature, surface_curvature(use, t));
+  return in_steps(rule_.at(curvature), rule_.size) / finer_[edge];
+}
+
 void Sampler::look_at(int edge) {
   const CadEdge& e = model_.edges[edge];
   Stations& st = stations_[edge];
-  std::vector<double> pieces = {e.range.lo};
-  for (double b : e.curve->breaks(e.range)) pieces.push_back(b);
-  pieces.push_back(e.range.hi);
+  st.way.emplace(*e.curve, e.range);
+  const double length = st.way->length();
+  const double wanted = std::ceil((1.0 - kRounding) * kStationsPerSize * length / rule_.size);
+  const int steps = static_cast<int>(std::clamp<double>(wanted, kFewestStations, kMostStations));
   Xyz last_tangent = Xyz::Zero();
-  for (size_t i = 0; i + 1 < pieces.size(); ++i) {
-    for (int k = i == 0 ? 0 : 1; k <= kStationsPerPiece; ++k) {
-      const double t = pieces[i] + (pieces[i + 1] - pieces[i]) * k / kStationsPerPiece;
-      const CurveJet<3> j = e.curve->jet(t);
-      double curvature = curve_curvature(j);
-      for (const Use& use : uses_[edge]) curvature = std::max(curvature, surface_curvature(use, t));
-      const double step = st.t.empty() ? 0.0 : t - st.t.back();
-      const double s = st.t.empty() ? 0.0
-                                    : st.s.back() + step / 6.0 *
-                                                        (e.curve->jet(st.t.back()).d1.norm() +
-                                                         4.0 * e.curve->jet(t - step / 2).d1.norm() + j.d1.norm());
-      const Xyz tangent = j.d1.normalized();
-      if (!st.t.empty()) st.turn += std::atan2(last_tangent.cross(tangent).norm(), last_tangent.dot(tangent));
-      last_tangent = tangent;
-      st.t.push_back(t);
-      st.s.push_back(s);
-      st.h.push_back(rule_.at(curvature) / finer_[edge]);
-    }
+  for (int k = 0; k <= steps; ++k) {
+    const double s = length * k / steps, inside = kInside * length / steps;
+    const double t = st.way->parameter(std::clamp(s, inside, length - inside));
+    const Xyz tangent = e.curve->jet(t).d1.normalized();
+    if (k > 0) st.turn += std::atan2(last_tangent.cross(tangent).norm(), last_tangent.dot(tangent));
+    last_tangent = tangent;
+    st.s.push_back(s);
+    st.h.push_back(size_at(edge, t));
   }
   // An edge shorter than its size is one segment, and its neighbours must be allowed to be as short.
-  const double length = st.s.back();
   for (double& h : st.h) h = std::min(h, std::max(length, kShortest * rule_.min_size));
 }
 
@@ -145,7 +159,7 @@ void Sampler::grade() {
   std::priority_queue<Node, std::vector<Node>, std::greater<>> queue;
   std::vector<std::vector<std::pair<int, bool>>> at_vertex(model_.vertices.size());
   for (size_t e = 0; e < stations_.size(); ++e) {
-    for (size_t i = 0; i < stations_[e].t.size(); ++i)
+    for (size_t i = 0; i < stations_[e].s.size(); ++i)
       queue.push({stations_[e].h[i], static_cast<int>(e), static_cast<int>(i)});
     if (model_.edges[e].first_vertex >= 0)
       at_vertex[model_.edges[e].first_vertex].push_back({static_cast<int>(e), true});
@@ -165,15 +179,15 @@ void Sampler::grade() {
       if (n.h > vertex_size_[n.index]) continue;
       for (const auto& [e, first] : at_vertex[n.index]) {
         Stations& st = stations_[e];
-        if (st.t.empty()) continue;
-        const int i = first ? 0 : static_cast<int>(st.t.size()) - 1;
+        if (st.s.empty()) continue;
+        const int i = first ? 0 : static_cast<int>(st.s.size()) - 1;
         lower(st.h[i], n.h, e, i);
       }
       continue;
     }
     Stations& st = stations_[n.edge];
     if (n.h > st.h[n.index]) continue;
-    const int last = static_cast<int>(st.t.size()) - 1;
+    const int last = static_cast<int>(st.s.size()) - 1;
     for (int i : {n.index - 1, n.index + 1}) {
       if (i < 0 || i > last) continue;
       lower(st.h[i], n.h + rule_.gradation * std::abs(st.s[i] - st.s[n.index]), n.edge, i);
@@ -211,13 +225,13 @@ void Sampler::place(int edge) {
   BorderPoints::Edge& out = result_.edges[edge];
   if (e.degenerate()) return;
   const Stations& st = stations_[edge];
-  std::vector<double> work(st.t.size(), 0.0);  // the integral of ds / h
-  for (size_t i = 1; i < st.t.size(); ++i) {
+  std::vector<double> work(st.s.size(), 0.0);  // the integral of ds / h
+  for (size_t i = 1; i < st.s.size(); ++i) {
     work[i] = work[i - 1] + segments_between(st.s[i] - st.s[i - 1], st.h[i - 1], st.h[i]);
   }
   const bool closed = e.first_vertex == e.last_vertex;
   const int least = std::max(closed ? 3 : 1, static_cast<int>(std::ceil(st.turn / kLargestTurn - kRoundingOfTurn)));
-  const int n = std::max(least, static_cast<int>(std::lround(work.back())));
+  const int n = std::max(least, static_cast<int>(std::lround((1.0 - kRounding) * work.back())));
   out.points.push_back(vertex_point(e.first_vertex, edge, e.range.lo));
   out.t.push_back(e.range.lo);
   size_t i = 1;
@@ -225,7 +239,7 @@ void Sampler::place(int edge) {
     const double target = work.back() * k / n;
     while (i + 1 < work.size() && work[i] < target) ++i;
     const double part = share_of_segments(target - work[i - 1], st.s[i] - st.s[i - 1], st.h[i - 1], st.h[i]);
-    const double t = st.t[i - 1] + part * (st.t[i] - st.t[i - 1]);
+    const double t = st.way->parameter(st.s[i - 1] + part * (st.s[i] - st.s[i - 1]));
     out.t.push_back(t);
     out.points.push_back(static_cast<int>(result_.points.size()));
     result_.points.push_back(position(edge, t));
