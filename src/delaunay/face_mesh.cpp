@@ -3,8 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "delaunay/front.h"
 #include "delaunay/refine.h"
 #include "delaunay/scaffold.h"
+#include "delaunay/size_field.h"
+#include "delaunay/stars.h"
 #include "delaunay/surface_triangulation.h"
 
 namespace geovor {
@@ -12,6 +15,10 @@ namespace {
 
 // An inner edge this many times longer than the size wanted at its triangle's corners is told.
 constexpr double kTooLong = 2.5;
+// Points that fronts have placed are nearly good; those of a scaffold are all replaced.
+constexpr int kRoundsOnFronts = 2, kRoundsOnScaffold = 3;
+// Each mesh tells the next one where sizes are smaller; after so many the last one is refined as it is.
+constexpr int kMostFillings = 4;
 
 void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
   const HalfEdges& topo = mesh.topology();
@@ -33,19 +40,25 @@ void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
   }
 }
 
-}  // namespace
-
-FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRule& rule) {
-  FaceMesh out;
-  const SurfaceProbe probe(*face.surface, parameter_box(face));
-  Scaffold scaffold = build_scaffold(face, probe, border, rule);
-  if (!scaffold.ok) {
-    out.why = scaffold.why;
-    return out;
+// Fills the face by fronts until no size is found in it that they did not know of. Nothing where fronts can't.
+std::optional<SurfaceTriangulation> fill(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border,
+                                         const SizeRule& rule) {
+  const FaceBorder rim = face_border(face, probe, border);
+  if (!rim.why.empty()) return std::nullopt;
+  SizeField field(rule);
+  std::optional<SurfaceTriangulation> mesh;
+  for (int i = 0; i < kMostFillings; ++i) {
+    std::vector<MeshVertex> points = fill_by_fronts(probe, rule, field, rim);
+    auto triangles = triangulate_by_stars(points, rim, rule.size);
+    if (!triangles) return std::nullopt;
+    mesh.emplace(std::move(*triangles), std::move(points), probe, rule);
+    if (!field.learn(*mesh)) break;
   }
-  SurfaceTriangulation mesh(std::move(scaffold.triangles), std::move(scaffold.vertices), probe, rule);
-  refine(mesh);
+  return mesh;
+}
 
+FaceMesh finished(const SurfaceTriangulation& mesh) {
+  FaceMesh out;
   std::vector<int> id(mesh.vertices().size());
   for (size_t v = 0; v < id.size(); ++v) {
     const MeshVertex& vertex = mesh.vertex(static_cast<int>(v));
@@ -64,6 +77,25 @@ FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRu
   out.estimated_lengths = mesh.estimates_used();
   out.ok = true;
   return out;
+}
+
+}  // namespace
+
+FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRule& rule) {
+  const SurfaceProbe probe(*face.surface, parameter_box(face));
+  if (auto mesh = fill(face, probe, border, rule)) {
+    refine(*mesh, kRoundsOnFronts);
+    return finished(*mesh);
+  }
+  Scaffold scaffold = build_scaffold(face, probe, border, rule);
+  if (!scaffold.ok) {
+    FaceMesh failed;
+    failed.why = scaffold.why;
+    return failed;
+  }
+  SurfaceTriangulation mesh(std::move(scaffold.triangles), std::move(scaffold.vertices), probe, rule);
+  refine(mesh, kRoundsOnScaffold);
+  return finished(mesh);
 }
 
 std::vector<int> points_to_refine(const CadFace& face, const BorderPoints& border) {

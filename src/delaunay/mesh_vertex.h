@@ -27,4 +27,11 @@ struct MeshVertex {
 /// `weight` scales the two parameters to lengths.
 Uv parameters_near(const MeshVertex& vertex, const Surface& surface, Uv reference, UvVec weight);
 
+/// The length of the geodesic between two near vertices, from their chord and normals: a cubic through both, exact to
+/// the fifth order of the chord.
+double geodesic_estimate(const MeshVertex& a, const MeshVertex& b);
+
+/// Whether the triangle faces the side of its corners' normals.
+bool upright(const MeshVertex& a, const MeshVertex& b, const MeshVertex& c);
+
 }  // namespace geovor

@@ -16,7 +16,6 @@ constexpr double kLargestRadius = 0.79;
 constexpr double kClosest = 0.74;
 // A triangle with a circumradius above this many sizes gets a vertex somewhere, if not at its Voronoi vertex.
 constexpr double kFarTooLarge = 1.2;
-constexpr int kRounds = 3;
 constexpr int kSmoothings = 4;
 // A vertex that would move by less than this share of the size stays: the rest is left to the next round.
 constexpr double kSmallMove = 1e-3;
@@ -26,14 +25,20 @@ double wanted(const SurfaceTriangulation& m, int t) {
   return (m.vertex(a).h + m.vertex(b).h + m.vertex(c).h) / 3.0;
 }
 
+// Ratios are compared after rounding, far above their noise; equals are taken in the order of their places.
+constexpr double kRatioRounding = 1e-6;
+
 // Triangles that are too large, the largest relative to its size first.
 class Worklist {
  public:
-  explicit Worklist(const SurfaceTriangulation& mesh) : mesh_(mesh) {}
+  explicit Worklist(const SurfaceTriangulation& mesh) : mesh_(mesh), order_(mesh.rule().size) {}
   void consider(int t) {
     if (!mesh_.topology().alive(t)) return;
     const double ratio = mesh_.circumradius(t) / (kLargestRadius * wanted(mesh_, t));
-    if (ratio > 1.0) queue_.push({ratio, t, mesh_.topology().corners(t)});
+    if (!(ratio > 1.0)) return;
+    const auto [a, b, c] = mesh_.topology().corners(t);
+    const Xyz middle = (mesh_.vertex(a).x + mesh_.vertex(b).x + mesh_.vertex(c).x) / 3.0;
+    queue_.push({std::round(ratio / kRatioRounding), order_.key(middle), t, {a, b, c}});
   }
   /// The next triangle that is still as it was when it was considered; kNone at the end.
   int next() {
@@ -48,11 +53,13 @@ class Worklist {
  private:
   struct Item {
     double ratio;
+    PlaceOrder::Key place;
     int t;
     std::array<int, 3> corners;
-    bool operator<(const Item& o) const { return std::tie(ratio, o.t) < std::tie(o.ratio, t); }
+    bool operator<(const Item& o) const { return std::tie(ratio, o.place, o.t) < std::tie(o.ratio, place, t); }
   };
   const SurfaceTriangulation& mesh_;
+  PlaceOrder order_;
   std::priority_queue<Item> queue_;
 };
 
@@ -100,23 +107,29 @@ void insert_voronoi_vertices(SurfaceTriangulation& mesh) {
   }
 }
 
+// Collapses edges that are too short, the shortest relative to its size first. Of two inner ends the one that comes
+// first in space stays.
 int thin_out(SurfaceTriangulation& mesh) {
   const HalfEdges& topo = mesh.topology();
+  const PlaceOrder order(mesh.rule().size);
   struct Short {
     double ratio;
-    int e, u, w;
+    PlaceOrder::Key place;
+    int u, w;
   };
   std::vector<Short> shorts;
   for (int e = 0; e < 3 * topo.triangle_count(); ++e) {
     if (!topo.alive(e / 3) || topo.twin(e) == HalfEdges::kNone) continue;
-    const int u = topo.origin(e), w = topo.target(e);
-    if (mesh.vertex(u).border >= 0) continue;
-    const double ratio =
-        (mesh.vertex(u).x - mesh.vertex(w).x).norm() / (kClosest * 0.5 * (mesh.vertex(u).h + mesh.vertex(w).h));
-    if (ratio < 1.0) shorts.push_back({ratio, e, u, w});
+    const MeshVertex &u = mesh.vertex(topo.origin(e)), &w = mesh.vertex(topo.target(e));
+    const double ratio = (u.x - w.x).norm() / (kClosest * 0.5 * (u.h + w.h));
+    if (u.border >= 0 || !(ratio < 1.0)) continue;
+    if (w.border < 0 && order.key(u.x) < order.key(w.x)) continue;
+    shorts.push_back(
+        {std::round(ratio / kRatioRounding), order.key(0.5 * (u.x + w.x)), topo.origin(e), topo.target(e)});
   }
-  std::sort(shorts.begin(), shorts.end(),
-            [](const Short& a, const Short& b) { return std::tie(a.ratio, a.e) < std::tie(b.ratio, b.e); });
+  std::sort(shorts.begin(), shorts.end(), [](const Short& a, const Short& b) {
+    return std::tie(a.ratio, a.place, a.u) < std::tie(b.ratio, b.place, b.u);
+  });
   int removed = 0;
   for (const Short& s : shorts) {
     if (topo.outgoing(s.u) == HalfEdges::kNone || topo.outgoing(s.w) == HalfEdges::kNone) continue;
@@ -127,29 +140,31 @@ int thin_out(SurfaceTriangulation& mesh) {
 }
 
 // The centroid of the star, its triangles weighted by the vertices that they should hold: area / h^2.
+Xyz centroid_of_star(const SurfaceTriangulation& mesh, int v) {
+  const HalfEdges& topo = mesh.topology();
+  Xyz sum = Xyz::Zero();
+  double weight = 0.0;
+  for (int e : topo.star(v)) {
+    const Xyz &a = mesh.vertex(topo.target(e)).x, &b = mesh.vertex(topo.apex(e)).x, &x = mesh.vertex(v).x;
+    const double h = wanted(mesh, e / 3);
+    const double w = (a - x).cross(b - x).norm() / (h * h);
+    sum += w * (a + b + x) / 3.0;
+    weight += w;
+  }
+  return sum / weight;
+}
+
+// All vertices at once, so that their order does not matter.
 void smooth(SurfaceTriangulation& mesh) {
   const HalfEdges& topo = mesh.topology();
+  std::vector<std::pair<int, MeshVertex>> moves;
   for (int v = 0; v < topo.vertex_count(); ++v) {
     if (topo.outgoing(v) == HalfEdges::kNone || mesh.vertex(v).border >= 0) continue;
-    Xyz sum = Xyz::Zero();
-    double weight = 0.0;
-    for (int e : topo.star(v)) {
-      const Xyz &a = mesh.vertex(topo.target(e)).x, &b = mesh.vertex(topo.apex(e)).x, &x = mesh.vertex(v).x;
-      const double h = wanted(mesh, e / 3);
-      const double w = (a - x).cross(b - x).norm() / (h * h);
-      sum += w * (a + b + x) / 3.0;
-      weight += w;
-    }
-    if (!(weight > 0.0)) continue;
-    const Xyz target = sum / weight;
-    if ((target - mesh.vertex(v).x).norm() < kSmallMove * mesh.vertex(v).h) continue;
-    const int below = mesh.locate(target, topo.outgoing(v) / 3);
-    if (below == HalfEdges::kNone) continue;
-    auto to = mesh.drop(target, below);
-    if (!to) continue;
-    to->h = mesh.vertex(v).h;  // graded; the rule's own size at the new place may be a spike of the curvature
-    mesh.move(v, *to);
+    const Xyz target = centroid_of_star(mesh, v);
+    if (!((target - mesh.vertex(v).x).norm() > kSmallMove * mesh.vertex(v).h)) continue;
+    if (auto to = mesh.drop_from(v, target)) moves.emplace_back(v, std::move(*to));
   }
+  for (const auto& [v, to] : moves) mesh.move(v, to);
   mesh.flip_all();
 }
 
@@ -180,16 +195,18 @@ void grade(SurfaceTriangulation& mesh) {
 
 }  // namespace
 
-void refine(SurfaceTriangulation& mesh) {
+void refine(SurfaceTriangulation& mesh, int rounds) {
   mesh.decide_by_geodesics(false);
   mesh.flip_all();
-  for (int round = 0; round < kRounds; ++round) {
-    mesh.decide_by_geodesics(round + 1 == kRounds);
+  for (int round = 0; round < rounds; ++round) {
     grade(mesh);
     while (thin_out(mesh) > 0) {
     }
     insert_voronoi_vertices(mesh);
-    for (int i = 0; i < kSmoothings; ++i) smooth(mesh);
+    for (int i = 0; i < kSmoothings; ++i) {
+      mesh.decide_by_geodesics(round + 1 == rounds && i + 1 == kSmoothings);
+      smooth(mesh);
+    }
   }
   mesh.compact();
 }

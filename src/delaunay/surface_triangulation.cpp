@@ -12,13 +12,13 @@
 namespace geovor {
 namespace {
 
-// A triangle is upright if its normal makes less than about 78 degrees with the mean of its corners' normals.
-constexpr double kUprightCosine = 0.2;
 // Where the estimated cotangents leave the sign of their sum open: lengths that are wrong by the fifth order of a 15
 // degree turn move it by less than this.
 constexpr double kDoubt = 0.02;
-// Two diagonals whose cotangents differ by less are equally good; the one that is there stays.
-constexpr double kTie = 1e-9;
+// Two diagonals whose cotangents differ by less are equally good: points on one circle, to the noise of their places.
+constexpr double kTie = 1e-7;
+// A smoothed point lies nearer to the surface than this part of the size.
+constexpr double kLargestDrop = 0.5;
 // A point this near to an edge, in parts of the triangle, is put on the edge.
 constexpr double kOnEdge = 0.02;
 // The area of a triangle that is flat to rounding, in parts of its sides' squares.
@@ -48,20 +48,10 @@ double cotangent(double p, double q, double r) {
 
 SurfaceTriangulation::SurfaceTriangulation(HalfEdges triangles, std::vector<MeshVertex> vertices,
                                            const SurfaceProbe& probe, const SizeRule& rule)
-    : mesh_(std::move(triangles)), vertices_(std::move(vertices)), probe_(probe), rule_(rule) {}
-
-double SurfaceTriangulation::estimated_length(int a, int b) const {
-  const Xyz chord = vertices_[b].x - vertices_[a].x;
-  const double c = chord.norm();
-  if (c == 0.0) return 0.0;
-  // Slopes of the curve against the chord at both ends; int sqrt(1 + y'^2) for the cubic with these slopes.
-  const double alpha = std::asin(std::clamp(vertices_[a].n.dot(chord) / c, -1.0, 1.0));
-  const double beta = -std::asin(std::clamp(vertices_[b].n.dot(chord) / c, -1.0, 1.0));
-  return c * (1.0 + (2.0 * alpha * alpha + 2.0 * beta * beta + alpha * beta) / 30.0);
-}
+    : mesh_(std::move(triangles)), vertices_(std::move(vertices)), probe_(probe), rule_(rule), order_(rule.size) {}
 
 double SurfaceTriangulation::geodesic_length(int a, int b) const {
-  const double estimate = estimated_length(a, b);
+  const double estimate = geodesic_estimate(vertices_[a], vertices_[b]);
   if (!vertices_[a].regular()) std::swap(a, b);
   const MeshVertex &from = vertices_[a], &to = vertices_[b];
   if (from.regular() && estimate > 0.0) {
@@ -79,17 +69,6 @@ double SurfaceTriangulation::geodesic_length(int a, int b) const {
   }
   ++estimates_used_;
   return estimate;
-}
-
-bool SurfaceTriangulation::upright(const MeshVertex& a, const MeshVertex& b, const MeshVertex& c) const {
-  const Xyz n = normal_of(a.x, b.x, c.x);
-  const Xyz m = a.n + b.n + c.n;
-  return n.dot(m) > kUprightCosine * n.norm() * m.norm();
-}
-
-bool SurfaceTriangulation::upright(int t) const {
-  const auto [a, b, c] = mesh_.corners(t);
-  return upright(vertices_[a], vertices_[b], vertices_[c]);
 }
 
 double SurfaceTriangulation::circumradius(int t) const {
@@ -115,16 +94,21 @@ double SurfaceTriangulation::facing_cotangents(int a, int b, int c, int d, const
 bool SurfaceTriangulation::is_delaunay(int e) const {
   if (mesh_.fixed(e)) return true;
   const int a = mesh_.origin(e), b = mesh_.target(e), c = mesh_.apex(e), d = mesh_.apex(mesh_.twin(e));
-  const auto estimated = [this](int p, int q) { return estimated_length(p, q); };
+  const auto estimated = [this](int p, int q) { return geodesic_estimate(vertices_[p], vertices_[q]); };
   const auto geodesic = [this](int p, int q) {
-    return decide_by_geodesics_ ? geodesic_length(p, q) : estimated_length(p, q);
+    return decide_by_geodesics_ ? geodesic_length(p, q) : geodesic_estimate(vertices_[p], vertices_[q]);
   };
   const double estimate = facing_cotangents(a, b, c, d, estimated);
   if (estimate > kDoubt) return true;
   // On a crease both diagonals can look wrong: the better one stays, or flipping would not end.
   if (estimate < -kDoubt) return facing_cotangents(c, d, a, b, estimated) <= estimate;
-  const double exact = facing_cotangents(a, b, c, d, geodesic);
-  return exact >= -kTie || facing_cotangents(c, d, a, b, geodesic) <= exact + kTie;
+  const double exact = facing_cotangents(a, b, c, d, geodesic), other = facing_cotangents(c, d, a, b, geodesic);
+  if (std::abs(exact) < kTie || std::abs(other - exact) < kTie) {
+    const int first = std::min(
+        {a, b, c, d}, [this](int p, int q) { return order_.key(vertices_[p].x) < order_.key(vertices_[q].x); });
+    return first == a || first == b;
+  }
+  return exact >= 0.0 || other <= exact;
 }
 
 bool SurfaceTriangulation::flip_allowed(int e) const {
@@ -226,6 +210,24 @@ std::optional<SurfaceSample> SurfaceTriangulation::foot(const Xyz& point, int t)
   const Projection p = project_near(probe_.surface(), point, reference_parameters(t, point), probe_.box());
   if (!p.foot.allFinite()) return std::nullopt;
   return probe_.at(p.uv);
+}
+
+std::optional<MeshVertex> SurfaceTriangulation::drop_from(int v, const Xyz& point) const {
+  const MeshVertex& from = vertices_[v];
+  const Projection foot = project_near(probe_.surface(), point, from.uv[0], probe_.box());
+  if (!foot.converged || !(foot.distance < kLargestDrop * from.h)) return std::nullopt;
+  const SurfaceSample s = probe_.at(foot.uv);
+  if (!s.x.allFinite() || !s.n.allFinite()) return std::nullopt;
+  return MeshVertex{s.x, s.n, from.h, -1, {foot.uv}, false, false};
+}
+
+// At the mean of the corners' parameters, where that is near.
+std::optional<SurfaceSample> SurfaceTriangulation::middle(int t) const {
+  const auto [a, b, c] = mesh_.corners(t);
+  const Xyz centroid = (vertices_[a].x + vertices_[b].x + vertices_[c].x) / 3.0;
+  const SurfaceSample s = probe_.at(reference_parameters(t, centroid));
+  if ((s.x - centroid).norm() < 0.5 * circumradius(t)) return s;
+  return foot(centroid, t);
 }
 
 bool SurfaceTriangulation::insert(const MeshVertex& vertex, int t) {

@@ -7,6 +7,7 @@
 
 #include "delaunay/half_edges.h"
 #include "delaunay/mesh_vertex.h"
+#include "delaunay/place_order.h"
 #include "delaunay/size_rule.h"
 #include "delaunay/surface_probe.h"
 
@@ -26,11 +27,8 @@ class SurfaceTriangulation {
   const SizeRule& rule() const { return rule_; }
   const SurfaceProbe& probe() const { return probe_; }
 
-  /// The length of the geodesic between two near vertices, from their chord and normals: a cubic through both, exact to
-  /// the fifth order of the chord.
-  double estimated_length(int a, int b) const;
-  /// The same by solving the geodesic equation. Falls back on the estimate, and counts that, where the solver does not
-  /// settle (a pole at both ends, a folded map).
+  /// The length of the geodesic between two near vertices, by solving the geodesic equation. Falls back on
+  /// geodesic_estimate, and counts that, where the solver does not settle (a pole at both ends, a folded map).
   double geodesic_length(int a, int b) const;
   int estimates_used() const { return estimates_used_; }
 
@@ -38,15 +36,13 @@ class SurfaceTriangulation {
   /// replaced, with estimates.
   void decide_by_geodesics(bool yes) { decide_by_geodesics_ = yes; }
 
-  /// Whether the triangle faces the side of the surface's normals.
-  bool upright(const MeshVertex& a, const MeshVertex& b, const MeshVertex& c) const;
-  bool upright(int t) const;
   /// Radius of the circle through the three corners.
   double circumradius(int t) const;
   Xyz circumcentre(int t) const;
 
   /// Whether the edge may stay: fixed, or the angles that face it sum to at most pi, measured with geodesic lengths (or
-  /// the other diagonal is no better, which happens across creases alone).
+  /// the other diagonal is no better, which happens across creases alone). Of two that are equally good the one at the
+  /// corner that comes first in space.
   bool is_delaunay(int e) const;
   /// Flips edges, beginning with `edges`, until every one that may be flipped is_delaunay.
   void flip_to_delaunay(std::vector<int> edges);
@@ -56,8 +52,12 @@ class SurfaceTriangulation {
   int locate(const Xyz& point, int t) const;
   /// The point of the surface nearest to `point`, which lies near triangle t; nothing where there is none close by.
   std::optional<MeshVertex> drop(const Xyz& point, int t) const;
+  /// The same for a point near an inner vertex, from the vertex' own parameters; its size is that of the vertex.
+  std::optional<MeshVertex> drop_from(int v, const Xyz& point) const;
   /// The same without a limit on its distance and without a size: for measuring.
   std::optional<SurfaceSample> foot(const Xyz& point, int t) const;
+  /// Somewhere in the middle of the triangle, where the surface is looked at cheaply.
+  std::optional<SurfaceSample> middle(int t) const;
   /// Puts the vertex into triangle t, or on its edge where it lies there, and restores the Delaunay property around it.
   /// Nothing is done, and false returned, where a triangle would turn over.
   bool insert(const MeshVertex& vertex, int t);
@@ -78,6 +78,7 @@ class SurfaceTriangulation {
   std::vector<MeshVertex> vertices_;
   const SurfaceProbe& probe_;
   const SizeRule& rule_;
+  PlaceOrder order_;
   bool decide_by_geodesics_ = true;
   mutable int estimates_used_ = 0;
 };

@@ -1,0 +1,95 @@
+#include "delaunay/size_field.h"
+
+#include <algorithm>
+
+namespace geovor {
+namespace {
+
+// Sources in a leaf of the tree.
+constexpr int kLeaf = 8;
+// A size this many times as large as it should be is noted …
+constexpr double kNoted = 1.02;
+// … and this many times as large it is worth another mesh.
+constexpr double kTooCoarse = 1.2;
+
+}  // namespace
+
+double SizeField::at(const Xyz& x, double wanted) const {
+  double h = wanted;
+  if (!tree_.empty()) lower(0, x, h);
+  return h;
+}
+
+double SizeField::bound(size_t node, const Xyz& x) const {
+  const Node& n = tree_[node];
+  const Xyz outside = (n.lower - x).cwiseMax(x - n.upper).cwiseMax(0.0);
+  return n.least + rule_.gradation * outside.norm();
+}
+
+// The nearer child first, so that the farther one is mostly passed by.
+void SizeField::lower(size_t node, const Xyz& x, double& h) const {
+  if (!(bound(node, x) < h)) return;
+  const Node& n = tree_[node];
+  if (n.end - n.begin <= kLeaf) {
+    for (int i = n.begin; i < n.end; ++i) h = std::min(h, sources_[i].h + rule_.gradation * (sources_[i].x - x).norm());
+    return;
+  }
+  const size_t left = 2 * node + 1, right = left + 1;
+  const bool left_first = bound(left, x) <= bound(right, x);
+  lower(left_first ? left : right, x, h);
+  lower(left_first ? right : left, x, h);
+}
+
+void SizeField::build(size_t node, int begin, int end) {
+  if (tree_.size() <= node) tree_.resize(node + 1);
+  Node n;
+  n.begin = begin, n.end = end;
+  for (int i = begin; i < end; ++i) {
+    n.lower = n.lower.cwiseMin(sources_[i].x);
+    n.upper = n.upper.cwiseMax(sources_[i].x);
+    n.least = std::min(n.least, sources_[i].h);
+  }
+  tree_[node] = n;
+  if (end - begin <= kLeaf) return;
+  int widest = 0;
+  (n.upper - n.lower).maxCoeff(&widest);
+  const int middle = (begin + end) / 2;
+  std::nth_element(sources_.begin() + begin, sources_.begin() + middle, sources_.begin() + end,
+                   [widest](const Source& a, const Source& b) { return a.x[widest] < b.x[widest]; });
+  build(2 * node + 1, begin, middle);
+  build(2 * node + 2, middle, end);
+}
+
+bool SizeField::learn(const SurfaceTriangulation& mesh) {
+  const HalfEdges& topo = mesh.topology();
+  double worst = 1.0;
+  const auto note = [&](const Xyz& x, double h, double excess) {
+    if (excess > kNoted) sources_.push_back({x, h});
+    worst = std::max(worst, excess);
+  };
+  for (int v = 0; v < topo.vertex_count(); ++v) {
+    if (topo.outgoing(v) == HalfEdges::kNone) continue;
+    const MeshVertex& from = mesh.vertex(v);
+    double excess = 1.0;
+    for (const int e : topo.star(v)) {
+      const MeshVertex& to = mesh.vertex(topo.target(e));
+      if (to.border >= 0) continue;  // it stands where it stands
+      excess = std::max(excess, to.h / (from.h + rule_.gradation * (to.x - from.x).norm()));
+    }
+    note(from.x, from.h, excess);
+  }
+  for (int t = 0; t < topo.triangle_count(); ++t) {
+    const auto middle = mesh.middle(t);
+    if (!middle) continue;
+    const auto [a, b, c] = topo.corners(t);
+    const double h = rule_.at(middle->curvature);
+    note(middle->x, h,
+         std::max({mesh.vertex(a).h, mesh.vertex(b).h, mesh.vertex(c).h}) /
+             (h + rule_.gradation * mesh.circumradius(t)));
+  }
+  tree_.clear();
+  if (!sources_.empty()) build(0, 0, static_cast<int>(sources_.size()));
+  return worst > kTooCoarse;
+}
+
+}  // namespace geovor

@@ -1,0 +1,179 @@
+#include "delaunay/stars.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "delaunay/close_gaps.h"
+#include "delaunay/place_order.h"
+#include "delaunay/space_grid.h"
+
+namespace geovor {
+namespace {
+
+// Neighbours are looked for this many sizes away: the circles of a mesh without holes have radii below 0.9 sizes.
+constexpr double kReach = 2.6;
+// A neighbour's normal turns by less than about 78 degrees.
+constexpr double kLeastCosine = 0.2;
+// Triangles thinner than this are none.
+constexpr double kThin = 1e-9;
+// Circles whose centres agree this well, in parts of the edge, are one.
+constexpr double kOneCircle = 1e-7;
+
+using Flat = Eigen::Vector2d;
+
+double cross(const Flat& a, const Flat& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+struct Neighbour {
+  int v;
+  Flat y;  ///< in the tangent plane
+};
+
+class Stars {
+ public:
+  Stars(const std::vector<MeshVertex>& points, const FaceBorder& border, double size)
+      : points_(points), border_(border), order_(size) {
+    for (const MeshVertex& p : points) grid_.add(p.x);
+  }
+
+  std::optional<HalfEdges> run() {
+    begin_.push_back(0);
+    for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+      find_star(i);
+      begin_.push_back(static_cast<int>(link_.size()));
+    }
+    std::vector<std::array<int, 3>> agreed;
+    std::vector<Disputed> disputed;
+    for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+      for (int k = begin_[i]; k < begin_[i + 1]; ++k) count_votes({i, link_[k][0], link_[k][1]}, agreed, disputed);
+    }
+    std::sort(disputed.begin(), disputed.end());
+    std::vector<std::array<int, 3>> candidates;
+    for (const Disputed& d : disputed) candidates.push_back(d.triangle);
+    return close_gaps(points_, border_, std::move(agreed), candidates);
+  }
+
+ private:
+  struct Disputed {
+    int against;
+    PlaceOrder::Key place;
+    std::array<int, 3> triangle;
+    bool operator<(const Disputed& o) const {
+      return std::tie(against, place, triangle) < std::tie(o.against, o.place, o.triangle);
+    }
+  };
+
+  bool is_border(int i) const { return i < static_cast<int>(border_.points.size()); }
+
+  bool has(int i, int j, int k) const {
+    return std::find(link_.begin() + begin_[i], link_.begin() + begin_[i + 1], std::array<int, 2>{j, k}) !=
+           link_.begin() + begin_[i + 1];
+  }
+
+  // Each triangle once, when its voter with the smallest number comes.
+  void count_votes(const std::array<int, 3>& t, std::vector<std::array<int, 3>>& agreed,
+                   std::vector<Disputed>& disputed) {
+    const bool second = has(t[1], t[2], t[0]), third = has(t[2], t[0], t[1]);
+    if ((second && t[1] < t[0]) || (third && t[2] < t[0])) return;
+    if (second && third) {
+      agreed.push_back(t);
+      return;
+    }
+    const Xyz middle = points_[t[0]].x + points_[t[1]].x + points_[t[2]].x;
+    disputed.push_back({second || third ? 1 : 2, order_.key(middle), t});
+  }
+
+  // Seen from the point, in the direction of the chord, as far away as along the surface.
+  void find_neighbours(int i) {
+    const MeshVertex& a = points_[i];
+    const Xyz e1 = a.n.unitOrthogonal(), e2 = a.n.cross(e1);
+    near_.clear();
+    const double reach = kReach * a.h;
+    grid_.each_near(a.x, reach, [&](int j) {
+      const MeshVertex& b = points_[j];
+      const Xyz chord = b.x - a.x;
+      if (j == i || !(chord.squaredNorm() < reach * reach) || !(b.n.dot(a.n) > kLeastCosine)) return;
+      const Flat flat(chord.dot(e1), chord.dot(e2));
+      near_.push_back({j, geodesic_estimate(a, b) / flat.norm() * flat});
+    });
+  }
+
+  const Neighbour* first_neighbour(int i) const {
+    const Neighbour* first = nullptr;
+    for (const Neighbour& n : near_) {
+      if (is_border(i)) {
+        if (n.v == border_.next[i]) return &n;
+      } else if (!first || n.y.squaredNorm() < first->y.squaredNorm()) {
+        first = &n;
+      }
+    }
+    return is_border(i) ? nullptr : first;
+  }
+
+  // Gift wrapping: from neighbour to neighbour counter-clockwise, each time to the one whose circle lies lowest.
+  void find_star(int i) {
+    find_neighbours(i);
+    const Neighbour* const first = first_neighbour(i);
+    const int last = is_border(i) ? border_.before[i] : -1;
+    const Neighbour* now = first;
+    for (size_t guard = 0; now && guard < near_.size(); ++guard) {
+      const Neighbour* next = next_neighbour(i, *now);
+      if (!next) return;
+      link_.push_back({now->v, next->v});
+      if (next == first || next->v == last) return;
+      now = next;
+    }
+  }
+
+  const Neighbour* next_neighbour(int i, const Neighbour& now) {
+    const double c = now.y.norm();
+    const auto height = [&](const Neighbour& n, double s) { return (n.y.squaredNorm() - n.y.dot(now.y)) / (2.0 * s); };
+    const Neighbour* best = nullptr;
+    double least = 0.0;
+    for (const Neighbour& n : near_) {
+      const double s = cross(now.y, n.y);
+      if (!(s > kThin * c * c)) continue;
+      const double h = height(n, s);
+      if (best && !(h < least)) continue;
+      best = &n, least = h;
+    }
+    if (!best) return nullptr;
+    circle_.clear();
+    for (const Neighbour& n : near_) {
+      const double s = cross(now.y, n.y);
+      if (s > kThin * c * c && height(n, s) < least + kOneCircle * c) circle_.push_back(&n);
+    }
+    return circle_.size() == 1 ? best : of_one_circle(i, now);
+  }
+
+  // A polygon on one circle is a fan about its corner that comes first in space; so all its corners see it.
+  const Neighbour* of_one_circle(int i, const Neighbour& now) {
+    std::sort(circle_.begin(), circle_.end(),
+              [](const Neighbour* a, const Neighbour* b) { return cross(a->y, b->y) > 0.0; });
+    const auto key = [this](int v) { return order_.key(points_[v].x); };
+    const auto corner = std::min_element(circle_.begin(), circle_.end(),
+                                         [&](const Neighbour* a, const Neighbour* b) { return key(a->v) < key(b->v); });
+    const PlaceOrder::Key least = key((*corner)->v), own = key(i), side = key(now.v);
+    if (least < own && least < side) return *corner;
+    return own < side ? circle_.front() : circle_.back();
+  }
+
+  const std::vector<MeshVertex>& points_;
+  const FaceBorder& border_;
+  PlaceOrder order_;
+  SpaceGrid grid_;
+  std::vector<std::array<int, 2>> link_;  ///< of all stars: the sides that face their points
+  std::vector<int> begin_;                ///< of a star in link_
+  std::vector<Neighbour> near_;
+  std::vector<const Neighbour*> circle_;
+};
+
+}  // namespace
+
+std::optional<HalfEdges> triangulate_by_stars(const std::vector<MeshVertex>& points, const FaceBorder& border,
+                                              double size) {
+  return Stars(points, border, size).run();
+}
+
+}  // namespace geovor
