@@ -9,7 +9,9 @@
 #include <tuple>
 
 #include "delaunay/arc_length.h"
+#include "delaunay/border_curvature.h"
 #include "delaunay/surface_probe.h"
+#include "surface/project.h"
 
 namespace geovor {
 namespace {
@@ -18,10 +20,14 @@ namespace {
 constexpr double kStationsPerSize = 2.0;
 constexpr int kFewestStations = 24;
 constexpr int kMostStations = 4000;
-// The ends of an edge are looked at this part of a step inside: there the speed of a parameter may vanish.
-constexpr double kInside = 1e-3;
-// Sizes that curvature asks for are taken in steps of this many an octave, far above the noise of second derivatives, so
-// that they are the same under every parameterization; the shift keeps round ratios away from the steps' ends.
+// The ends of an edge are looked at these parts of a step inside, since there the speed of a parameter may vanish: the
+// second derivatives need more room than the first.
+constexpr double kInside = 0.25;
+constexpr double kTangentInside = 1e-3;
+// The faces' curvature is looked at beside the edge, at this part of the size or of the edge's length.
+constexpr double kBeside = 0.1;
+// Sizes that curvature asks for are taken in steps of this many an octave, far above the noise of second derivatives,
+// so that they are the same under every parameterization; the shift keeps round ratios away from the steps' ends.
 constexpr double kStepsPerOctave = 512.0;
 constexpr double kShiftOfSteps = 0.3819660112501051;
 // A number that is rounded to a whole one is lowered by this part, so that rounding does not decide a tie.
@@ -84,8 +90,8 @@ class Sampler {
   BorderPoints run();
 
  private:
-  double surface_curvature(const Use& use, double t) const;
-  double size_at(int edge, double t) const;
+  double surface_curvature(const Use& use, double t, const CurveJet<3>& j, double d) const;
+  double size_at(int edge, double t, double d) const;
   void collect_uses();
   void look_at(int edge);
   void grade();
@@ -114,15 +120,18 @@ void Sampler::collect_uses() {
   }
 }
 
-double Sampler::surface_curvature(const Use& use, double t) const {
+double Sampler::surface_curvature(const Use& use, double t, const CurveJet<3>& j, double d) const {
   if (!probes_[use.face]) return 0.0;
-  const auto p = use.coedge->pcurve->position(t);
-  return probes_[use.face]->at({p.x(), p.y()}).curvature;
+  const CurveJet<2> p = use.coedge->pcurve->jet(t);
+  const double left = use.coedge->reversed ? -1.0 : 1.0;
+  return curvature_beside(*probes_[use.face],
+                          {{p.C.x(), p.C.y()}, left * UvVec{-p.d1.y(), p.d1.x()}, j.C, j.d1.normalized()}, d);
 }
 
-double Sampler::size_at(int edge, double t) const {
-  double curvature = curve_curvature(model_.edges[edge].curve->jet(t));
-  for (const Use& use : uses_[edge]) curvature = std::max(curvature, surface_curvature(use, t));
+double Sampler::size_at(int edge, double t, double d) const {
+  const CurveJet<3> j = model_.edges[edge].curve->jet(t);
+  double curvature = curve_curvature(j);
+  for (const Use& use : uses_[edge]) curvature = std::max(curvature, surface_curvature(use, t, j, d));
   return in_steps(rule_.at(curvature), rule_.size) / finer_[edge];
 }
 
@@ -133,15 +142,18 @@ void Sampler::look_at(int edge) {
   const double length = st.way->length();
   const double wanted = std::ceil((1.0 - kRounding) * kStationsPerSize * length / rule_.size);
   const int steps = static_cast<int>(std::clamp<double>(wanted, kFewestStations, kMostStations));
+  const double step = length / steps, beside = kBeside * std::min(rule_.size, length);
+  const auto inside = [&](double s, double part) {
+    return st.way->parameter(std::clamp(s, part * step, length - part * step));
+  };
   Xyz last_tangent = Xyz::Zero();
   for (int k = 0; k <= steps; ++k) {
-    const double s = length * k / steps, inside = kInside * length / steps;
-    const double t = st.way->parameter(std::clamp(s, inside, length - inside));
-    const Xyz tangent = e.curve->jet(t).d1.normalized();
+    const double s = length * k / steps, t = inside(s, kInside);
+    const Xyz tangent = e.curve->jet(k == 0 || k == steps ? inside(s, kTangentInside) : t).d1.normalized();
     if (k > 0) st.turn += std::atan2(last_tangent.cross(tangent).norm(), last_tangent.dot(tangent));
     last_tangent = tangent;
     st.s.push_back(s);
-    st.h.push_back(size_at(edge, t));
+    st.h.push_back(size_at(edge, t, beside));
   }
   // An edge shorter than its size is one segment, and its neighbours must be allowed to be as short.
   for (double& h : st.h) h = std::min(h, std::max(length, kShortest * rule_.min_size));
@@ -198,16 +210,19 @@ void Sampler::grade() {
   }
 }
 
-// A border that one face alone uses lies on that face; a shared one on the edge's own curve.
+// A border that one face alone uses lies on that face, below the edge's own curve (its p-curve may run ahead or behind
+// along the edge); a shared one on the curve.
 Xyz Sampler::position(int edge, double t) const {
+  const Xyz on_curve = model_.edges[edge].curve->position(t);
   const auto& uses = uses_[edge];
   const bool one_face =
       !uses.empty() && std::all_of(uses.begin(), uses.end(), [&](const Use& u) { return u.face == uses[0].face; });
-  if (one_face && model_.faces[uses[0].face].surface) {
-    const auto p = uses[0].coedge->pcurve->position(t);
-    return model_.faces[uses[0].face].surface->position({p.x(), p.y()});
-  }
-  return model_.edges[edge].curve->position(t);
+  if (!one_face || !model_.faces[uses[0].face].surface) return on_curve;
+  const Surface& surface = *model_.faces[uses[0].face].surface;
+  const auto p = uses[0].coedge->pcurve->position(t);
+  const Xyz on_surface = surface.position({p.x(), p.y()});
+  const Projection below = project_near(surface, on_curve, {p.x(), p.y()}, surface.domain());
+  return below.converged && below.distance <= (on_surface - on_curve).norm() ? below.foot : on_surface;
 }
 
 int Sampler::vertex_point(int vertex, int edge, double t) {
