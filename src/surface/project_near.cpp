@@ -25,7 +25,7 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 // The tangential part of the residual, r.eu, is a difference of coordinates: it can't be made smaller than a few units
 // in their last place. Iteration aims at the first bound; a result within the second counts as converged.
 constexpr double kAim = 4.0;
-constexpr double kAccept = 1e4;
+constexpr double kAccept = 1e3;
 // A derivative is that much less exact, in parts of the surface's size over the box, than a coordinate.
 constexpr double kDerivativeNoise = 10.0;
 
@@ -44,7 +44,7 @@ struct Residual {
   double g[2];        // r.e
   bool free[2];       // false: at the border of the box, and f falls only outwards
   double tangential;  // the largest |g| over the free directions
-  double rounding;    // of coordinates
+  double rounding;    // of positions
 
   bool moves(int k) const { return free[k] && h[k] > 0.0; }
 };
@@ -83,8 +83,9 @@ struct Task {
     s.j = surface.jet(p);
     s.r = s.j.S - point;
     s.f = 0.5 * s.r.squaredNorm();
-    s.rounding = kEps * (s.j.S.cwiseAbs().maxCoeff() + point.cwiseAbs().maxCoeff());
     s.tangential = 0.0;
+    // Positions are sums of terms as large as the surface is over the box, wherever it lies.
+    double size = s.j.S.cwiseAbs().maxCoeff() + point.cwiseAbs().maxCoeff();
     for (int k : {0, 1}) {
       const Xyz& d = k == 0 ? s.j.Su : s.j.Sv;
       s.h[k] = d.norm();
@@ -92,7 +93,9 @@ struct Task {
       s.g[k] = s.r.dot(s.e[k]);
       s.free[k] = !held(k, p, s.g[k]);
       if (s.free[k]) s.tangential = std::max(s.tangential, std::abs(s.g[k]));
+      if (std::isfinite(length[k])) size += s.h[k] * length[k];
     }
+    s.rounding = kEps * size;
     return s;
   }
 };
@@ -132,12 +135,16 @@ bool damped_step(const Residual& s, const Hessian& H, double (&way)[2]) {
   return std::isfinite(way[0]) && std::isfinite(way[1]);
 }
 
-// f is known to |r| times the rounding of the coordinates, so that it resolves the foot to the root of that only: near
-// the end a step that leaves f unchanged, to rounding, is good if it lowers the tangential residual.
+// f is known to |r| times the rounding of positions, so that it resolves the foot to the root of that only: near the
+// end a step that leaves f unchanged, to rounding, is good if it lowers the tangential residual. Where the parameters
+// run slowly the jet tells less of the surface's size, and so of its rounding: a residual that falls much makes up for
+// it.
 bool better(const Residual& now, const Residual& then) {
+  constexpr double kMuch = 0.1, kSlower = 64.0;
   const double noise = kAim * now.rounding * (std::sqrt(2.0 * now.f) + now.rounding);
   if (then.f < now.f - noise) return true;
-  return then.f <= now.f + noise && then.tangential < now.tangential;
+  return then.tangential < now.tangential &&
+         then.f <= now.f + (then.tangential < kMuch * now.tangential ? kSlower * noise : noise);
 }
 
 struct State {
@@ -154,7 +161,7 @@ LineSpeed speed(const Residual& s, int k) {
 // A line that stops at the end of the box is followed up to there by steps of ever smaller size. What is left is
 // nothing in the end: then the foot is on the border.
 void stop_at_end(Task& task, State& at_, const Retraction& step) {
-  constexpr double kNothing = 0.1 * kAccept;
+  constexpr double kNothing = 0.3 * kAccept;
   for (int k : {0, 1}) {
     if (!(k == 0 ? step.u_blocked : step.v_blocked)) continue;
     const double x = at(at_.p, k);
