@@ -55,6 +55,13 @@ void ArcLength::add(double lo, double hi, double whole, int depth) {
   t_.push_back(hi);
 }
 
+double ArcLength::at(double t) const {
+  if (!(t > t_.front())) return 0.0;
+  if (!(t < t_.back())) return length();
+  const std::size_t i = static_cast<std::size_t>(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin()) - 1;
+  return s_[i] + way(curve_, t_[i], t);
+}
+
 // Newton's method inside the piece, by halves where it would leave the bracket (the speed may vanish at its ends).
 double ArcLength::parameter(double s) const {
   if (!(s > 0.0)) return t_.front();

@@ -15,6 +15,8 @@ class ArcLength {
 
   /// NaN where the curve's derivative is.
   double length() const { return s_.back(); }
+  /// The way from the start to a parameter of the range.
+  double at(double t) const;
   /// The parameter at the way s from the start; the range's ends for s <= 0 and s >= length().
   double parameter(double s) const;
 

@@ -1,10 +1,14 @@
 // The points on the edges of a CAD model: made once, used by every face at the edge, so that the mesh is watertight.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "brep/model.h"
+#include "delaunay/edge_stations.h"
 #include "delaunay/size_rule.h"
+#include "delaunay/surface_probe.h"
 
 namespace geovor {
 
@@ -21,9 +25,34 @@ struct BorderPoints {
   std::vector<Edge> edges;  ///< as CadModel::edges; a degenerated edge has its vertex alone
 };
 
-/// Places points on every edge at equal steps of the integral of ds / h(s), with h the rule's size for the larger of
-/// the curvatures of the edge and of the faces at it, graded over the whole net of edges. `finer[e]` >= 1 divides h on
-/// edge e. Where one face alone uses an edge the points lie on its surface, elsewhere on the edge's space curve.
+/// Places points on every edge at equal steps of the integral of ds / h(s), with h the smallest of the sizes that the
+/// rules of the faces at the edge give for the larger of the curvatures of edge and face, graded over the whole net of
+/// edges. Where one face alone uses an edge the points lie on its surface, elsewhere on the edge's space curve. An edge
+/// that no face uses gets none.
+class BorderSampler {
+ public:
+  /// Runs body(0) … body(n-1) in any order, perhaps at once; the points do not depend on it.
+  using ForEach = std::function<void(int n, const std::function<void(int)>& body)>;
+
+  /// Looks along all edges. `rules[f]` is that of faces[f]; all have the same gradation. The model outlives it.
+  BorderSampler(const CadModel& model, std::vector<SizeRule> rules, const ForEach& for_each);
+
+  BorderSampler(const BorderSampler&) = delete;
+  BorderSampler& operator=(const BorderSampler&) = delete;
+
+  /// `finer[e]` >= 1 divides h on edge e.
+  BorderPoints sample(const std::vector<double>& finer) const;
+
+ private:
+  const CadModel& model_;
+  std::vector<SizeRule> rules_;
+  ForEach for_each_;
+  std::vector<std::optional<SurfaceProbe>> probes_;  // of the faces
+  std::vector<std::vector<EdgeUse>> uses_;           // of the edges
+  std::vector<std::optional<EdgeStations>> stations_;
+};
+
+/// With one rule for all faces.
 BorderPoints sample_border(const CadModel& model, const SizeRule& rule, const std::vector<double>& finer);
 
 }  // namespace geovor

@@ -79,5 +79,48 @@ TEST(SampleBorder, KeepsAHoleRoundHoweverCoarseTheSize) {
   EXPECT_GE(border.edges[0].points.size(), 9u);
 }
 
+BorderSampler::ForEach backwards() {
+  return [](int n, const std::function<void(int)>& body) {
+    for (int i = n - 1; i >= 0; --i) body(i);
+  };
+}
+
+// Two squares side by side, the left one with a rule of its own.
+TEST(BorderSampler, GivesACommonEdgeTheFinerOfTwoRules) {
+  CadModel model =
+      one_face(std::make_shared<Plane>(origin_frame()), {{{0, 0}, 0}, {{1, 0}, 1}, {{1, 1}, 2}, {{0, 1}, 3}});
+  CadModel right =
+      one_face(std::make_shared<Plane>(origin_frame()), {{{1, 0}, 1}, {{2, 0}, 4}, {{2, 1}, 5}, {{1, 1}, 2}});
+  CadFace face = right.faces[0];
+  for (Coedge& c : face.loops[0].coedges) c.edge += 4;
+  face.loops[0].coedges[3] = {1, std::make_shared<Segment>(Uv{1, 0}, Uv{1, 1}), {0, 1}, true};
+  model.vertices.resize(6);
+  model.edges.insert(model.edges.end(), right.edges.begin(), right.edges.end());
+  model.faces.push_back(face);
+  SizeRule coarse{0.5}, fine{0.1};
+  coarse.gradation = fine.gradation = 0.2;
+  const BorderSampler sampler(model, {fine, coarse}, backwards());
+  const BorderPoints border = sampler.sample(std::vector<double>(8, 1.0));
+  const auto segments = [&](int e) { return border.edges[e].points.size() - 1; };
+  EXPECT_EQ(segments(0), 10u);
+  EXPECT_EQ(segments(1), 10u);                   // common
+  EXPECT_EQ(border.edges[7].points.size(), 0u);  // no face uses it
+  // int ds / (0.1 + 0.2 s) = 5 ln 3 from the common edge on, until the size is 0.3 at the far end.
+  EXPECT_EQ(segments(4), static_cast<std::size_t>(std::lround(5 * std::log(3.0))));
+  EXPECT_EQ(segments(5), 3u);
+}
+
+// A number and a place of a point follow from the model alone.
+TEST(BorderSampler, GivesTheSamePointsInWhateverOrderEdgesAreLookedAt) {
+  const CadModel model = whole_sphere(1.0);
+  SizeRule rule{0.2};
+  rule.angle = 0.1;
+  const std::vector<double> finer(model.edges.size(), 1.0);
+  const BorderPoints a = sample_border(model, rule, finer);
+  const BorderPoints b = BorderSampler(model, {rule}, backwards()).sample(finer);
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.size, b.size);
+}
+
 }  // namespace
 }  // namespace geovor
