@@ -4,8 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <iomanip>
+#include <limits>
 #include <mutex>
 #include <set>
+#include <sstream>
 
 #include "base/error.h"
 #include "brep/face_area.h"
@@ -27,6 +30,43 @@ void require(bool holds, const std::string& message) {
 // A part of a million triangles has a diagonal of about 700 sizes. Far beyond that the unit is mistaken.
 constexpr double kMostSizesAcross = 1e4;
 
+void require_face(int number, const CadModel& model) {
+  require(number >= 1 && number <= static_cast<int>(model.faces.size()), "there is no Face" + std::to_string(number) +
+                                                                             "; the file has Face1 to Face" +
+                                                                             std::to_string(model.faces.size()));
+}
+
+// The largest distance between the ends and middles of a face's edges.
+double extent(const CadModel& model, const CadFace& face) {
+  Xyz lower = Xyz::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (const TrimLoop& loop : face.loops) {
+    for (const Coedge& c : loop.coedges) {
+      const CadEdge& e = model.edges[c.edge];
+      if (e.degenerate()) continue;
+      for (double t : {e.range.lo, e.range.middle(), e.range.hi}) {
+        lower = lower.cwiseMin(e.curve->position(t));
+        upper = upper.cwiseMax(e.curve->position(t));
+      }
+    }
+  }
+  return std::max(0.0, (upper - lower).maxCoeff());
+}
+
+void validate(const std::vector<FaceRule>& rules, const CadModel& model) {
+  std::set<int> seen;
+  for (const FaceRule& rule : rules) {
+    require_face(rule.face, model);
+    const std::string face = "Face" + std::to_string(rule.face);
+    require(seen.insert(rule.face).second, face + " has two rules; leave one of them out");
+    for (const std::optional<double>& value : {rule.size, rule.deflection, rule.angle}) {
+      require(!value || (*value > 0.0 && std::isfinite(*value)), "a rule of " + face + " is not a number above 0");
+    }
+    require(!rule.size || extent(model, model.faces[rule.face - 1]) <= kMostSizesAcross * *rule.size,
+            "the size of " + face + " is less than 1/10000 of its extent; give a larger one (the lengths here are in " +
+                model.unit + ")");
+  }
+}
+
 void validate(const MeshOptions& o, const CadModel& model) {
   require(o.size > 0.0 && std::isfinite(o.size), "the size must be a positive length; give --size a number above 0");
   require(model.diagonal() <= kMostSizesAcross * o.size,
@@ -36,11 +76,26 @@ void validate(const MeshOptions& o, const CadModel& model) {
   require(o.deflection > 0.0, "the deflection must be a positive length");
   require(o.angle > 0.0, "the angle must be positive");
   require(o.gradation > 0.0, "the gradation must be positive");
-  for (int n : o.faces) {
-    require(
-        n >= 1 && n <= static_cast<int>(model.faces.size()),
-        "there is no Face" + std::to_string(n) + "; the file has Face1 to Face" + std::to_string(model.faces.size()));
+  for (int n : o.faces) require_face(n, model);
+  validate(o.face_rules, model);
+}
+
+// One rule a face.
+std::vector<SizeRule> rules_of(const MeshOptions& o, const CadModel& model) {
+  const SizeRule general{o.size, smallest_size(o, model), o.deflection, o.angle, o.gradation};
+  std::vector<SizeRule> rules(model.faces.size(), general);
+  for (const FaceRule& own : o.face_rules) {
+    MeshOptions as_own = o;
+    as_own.size = own.size.value_or(o.size);
+    rules[own.face - 1] = {as_own.size, smallest_size(as_own, model), own.deflection.value_or(o.deflection),
+                           own.angle.value_or(o.angle), o.gradation};
   }
+  return rules;
+}
+
+void run_each(const MeshOptions& o, int n, const std::function<void(int)>& body) {
+  if (o.for_each) return o.for_each(n, body);
+  for (int i = 0; i < n; ++i) body(i);
 }
 
 std::vector<int> selected(const MeshOptions& o, const CadModel& model) {
@@ -52,31 +107,40 @@ std::vector<int> selected(const MeshOptions& o, const CadModel& model) {
   return {chosen.begin(), chosen.end()};
 }
 
+// The face's edges whose border points stand in the way of a triangulation.
+std::set<int> edges_to_refine(const CadFace& face, const BorderPoints& border) {
+  std::set<int> edges;
+  if (!face.surface) return edges;
+  const std::vector<int> bad = points_to_refine(face, border);
+  const std::set<int> at(bad.begin(), bad.end());
+  for (const TrimLoop& loop : face.loops) {
+    for (const Coedge& c : loop.coedges) {
+      const auto& points = border.edges[c.edge].points;
+      if (std::any_of(points.begin(), points.end(), [&at](int p) { return at.count(p) > 0; })) edges.insert(c.edge);
+    }
+  }
+  return edges;
+}
+
 // Border points that keep every face's border polygon simple: where it crosses itself its edges get twice as many
 // points.
-BorderPoints place_border(const CadModel& model, const std::vector<int>& faces, const SizeRule& rule) {
+BorderPoints place_border(const CadModel& model, const std::vector<int>& faces, const std::vector<SizeRule>& rules,
+                          const MeshOptions& options) {
   constexpr int kMostHalvings = 4;
+  const auto for_each = [&options](int n, const std::function<void(int)>& body) { run_each(options, n, body); };
+  const BorderSampler sampler(model, rules, for_each);
   std::vector<double> finer(model.edges.size(), 1.0);
-  BorderPoints border = sample_border(model, rule, finer);
+  BorderPoints border = sampler.sample(finer);
   for (int round = 0; round < kMostHalvings; ++round) {
+    std::vector<std::set<int>> edges(faces.size());
+    for_each(static_cast<int>(faces.size()), [&](int i) { edges[i] = edges_to_refine(model.faces[faces[i]], border); });
     bool changed = false;
-    for (int f : faces) {
-      const CadFace& face = model.faces[f];
-      if (!face.surface) continue;
-      const std::vector<int> bad = points_to_refine(face, border);
-      const std::set<int> at(bad.begin(), bad.end());
-      std::set<int> edges;
-      for (const TrimLoop& loop : face.loops) {
-        for (const Coedge& c : loop.coedges) {
-          const auto& points = border.edges[c.edge].points;
-          if (std::any_of(points.begin(), points.end(), [&at](int p) { return at.count(p) > 0; })) edges.insert(c.edge);
-        }
-      }
-      for (int e : edges) finer[e] *= 2.0;
-      changed = changed || !edges.empty();
+    for (const std::set<int>& of_face : edges) {
+      for (int e : of_face) finer[e] *= 2.0;
+      changed = changed || !of_face.empty();
     }
     if (!changed) break;
-    border = sample_border(model, rule, finer);
+    border = sampler.sample(finer);
   }
   return border;
 }
@@ -112,7 +176,14 @@ class Assembly {
   std::vector<int> point_of_border_;
 };
 
-void describe(const CadFace& face, const BorderPoints& border, const FaceMesh& part, FaceReport& report) {
+std::string number_text(double value) {
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return text.str();
+}
+
+void describe(const CadFace& face, const BorderPoints& border, const FaceMesh& part, const SizeRule& rule,
+              FaceReport& report) {
   Assembly alone(border);
   alone.add(face, part);
   const MeshQuality q = quality(alone.mesh);
@@ -130,6 +201,12 @@ void describe(const CadFace& face, const BorderPoints& border, const FaceMesh& p
     report.status = FaceStatus::Partial;
     report.why =
         std::to_string(part.too_large) + " triangles stayed larger than asked for; a smaller --size may mend it";
+  } else if (part.largest_distance > rule.deflection) {
+    report.status = FaceStatus::Partial;
+    report.why = "a triangle lies " + number_text(part.largest_distance) +
+                 " from the face and not within the deflection " + number_text(rule.deflection) +
+                 "; no rule asks for less than " + number_text(rule.min_size) +
+                 ": a lower --min-size or a smaller --size may mend it";
   }
 }
 
@@ -144,7 +221,7 @@ void mesh_one(const CadModel& model, const CadFace& face, const BorderPoints& bo
     part.why = face.problems.empty() ? "it has no surface that can be used" : face.problems.front();
   }
   if (part.ok) {
-    describe(face, border, part, report);
+    describe(face, border, part, rule, report);
   } else {
     report.why = part.why + "; repair the face in the CAD system, or leave it out with --faces";
   }
@@ -186,15 +263,14 @@ double smallest_size(const MeshOptions& options, const CadModel& model) {
 
 MeshResult mesh_model(const CadModel& model, const MeshOptions& options) {
   validate(options, model);
-  const SizeRule rule{options.size, smallest_size(options, model), options.deflection, options.angle,
-                      options.gradation};
+  const std::vector<SizeRule> rules = rules_of(options, model);
   const std::vector<int> faces = selected(options, model);
   const int total = static_cast<int>(faces.size());
 
   MeshResult result;
-  result.smallest_size = rule.min_size;
+  result.smallest_size = smallest_size(options, model);
   auto start = Clock::now();
-  const BorderPoints border = place_border(model, faces, rule);
+  const BorderPoints border = place_border(model, faces, rules, options);
   result.seconds_borders = seconds_since(start);
 
   start = Clock::now();
@@ -205,19 +281,16 @@ MeshResult mesh_model(const CadModel& model, const MeshOptions& options) {
     const CadFace& face = model.faces[faces[i]];
     FaceReport& report = result.faces[i];
     report.face = face.number;
+    report.size = rules[faces[i]].size;
     if (progress.stopped()) {
       report.status = FaceStatus::Stopped;
       report.why = "the work was stopped before it";
       return;
     }
-    mesh_one(model, face, border, rule, parts[i], report);
+    mesh_one(model, face, border, rules[faces[i]], parts[i], report);
     progress.add();
   };
-  if (options.for_each) {
-    options.for_each(total, body);
-  } else {
-    for (int i = 0; i < total; ++i) body(i);
-  }
+  run_each(options, total, body);
   result.seconds_faces = seconds_since(start);
 
   Assembly assembly(border);

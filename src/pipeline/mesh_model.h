@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@
 
 namespace geovor {
 
+/// What one face is to be like; what is left out is as for all faces. An edge takes the finer of its faces' sizes.
+struct FaceRule {
+  int face = 0;  ///< FaceN's N
+  std::optional<double> size, deflection, angle;
+};
+
 /// What the mesh is to be like. The smallest of the rules holds at each place, graded by `gradation`.
 struct MeshOptions {
   double size = 0.0;      ///< the length that an edge is to have, model units; REQUIRES > 0
@@ -18,6 +25,7 @@ struct MeshOptions {
   double deflection = std::numeric_limits<double>::infinity();  ///< largest distance from a triangle to the face
   double angle = 0.26179938779914943;  ///< largest turn of the normal across an edge, radians (15 degrees)
   double gradation = 0.5;              ///< how fast the size may grow with distance: h(x) <= h(y) + gradation * d(x, y)
+  std::vector<FaceRule> face_rules;    ///< one a face at most
   std::vector<int> faces;              ///< face numbers to mesh (FaceN's N); empty: all
 
   /// Runs body(0) … body(n-1), in any order, perhaps at once; the result does not depend on it. Default: one after
@@ -31,7 +39,7 @@ struct MeshOptions {
 enum class FaceStatus {
   Meshed,
   Rejected,  ///< the face can't be meshed: `why` says what is wrong and what would mend it
-  Partial,   ///< meshed, but the refinement did not reach the size wanted everywhere: `why` says where
+  Partial,   ///< meshed, but not as fine as was asked for, or with a fault: `why` says what
   Stopped,
 };
 
@@ -41,6 +49,7 @@ struct FaceReport {
   std::string why;
   int triangles = 0;
   int inverted = 0;               ///< triangles whose normal points against the face's
+  double size = 0.0;              ///< that was asked for on this face, model units
   double smallest_angle = 0.0;    ///< degrees
   double largest_distance = 0.0;  ///< from points sampled on the triangles to the face, model units
   double mesh_area = 0.0;
@@ -52,7 +61,7 @@ struct FaceReport {
 struct MeshResult {
   TriangleMesh mesh;  ///< of the faces that were meshed, in the order of their numbers
   std::vector<FaceReport> faces;
-  double smallest_size = 0.0;  ///< that the rules were allowed to ask for
+  double smallest_size = 0.0;  ///< that the rules were allowed to ask for where a face has no rule of its own
   double seconds_borders = 0.0, seconds_faces = 0.0;
 };
 

@@ -116,5 +116,55 @@ TEST(MeshModel, StopsWhenToldTo) {
   EXPECT_EQ(r.faces[1].status, FaceStatus::Stopped);
 }
 
+TEST(MeshModel, RefusesFaceRulesThatMakeNoSense) {
+  const auto refused = [](FaceRule rule) {
+    MeshOptions o = of_size(0.1);
+    o.face_rules = {rule};
+    return refusal(o);
+  };
+  EXPECT_NE(refused({2, 0.1, {}, {}}).find("no Face2"), std::string::npos);
+  EXPECT_NE(refused({1, -0.1, {}, {}}).find("Face1"), std::string::npos);
+  EXPECT_NE(refused({1, {}, std::numeric_limits<double>::quiet_NaN(), {}}).find("Face1"), std::string::npos);
+  EXPECT_NE(refused({1, 1e-6, {}, {}}).find("1/10000"), std::string::npos);
+  MeshOptions twice = of_size(0.1);
+  twice.face_rules = {{1, 0.1, {}, {}}, {1, 0.2, {}, {}}};
+  EXPECT_NE(refusal(twice).find("two rules"), std::string::npos);
+}
+
+// The rule of a face is that of the whole mesh where it is the only face.
+TEST(MeshModel, MeshesAFaceByItsOwnRule) {
+  const CadModel model = whole_sphere(1.0);
+  MeshOptions all = of_size(0.3), own = of_size(0.5);
+  all.angle = 0.2;
+  own.face_rules = {{1, 0.3, {}, 0.2}};
+  const MeshResult a = mesh_model(model, all), b = mesh_model(model, own);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_EQ(a.mesh.points, b.mesh.points);
+  EXPECT_EQ(b.faces[0].size, 0.3);
+}
+
+// Between triangles and a sphere of radius 1 there is at most the deflection, unless a smallest size forbids it.
+TEST(MeshModel, KeepsTheDeflectionOrSaysThatItDoesNot) {
+  const CadModel model = whole_sphere(1.0);
+  for (double deflection : {0.03, 0.01, 0.003}) {
+    MeshOptions o = of_size(1.0);
+    o.angle = 10.0;
+    o.deflection = deflection;
+    const MeshResult r = mesh_model(model, o);
+    ASSERT_EQ(r.faces[0].status, FaceStatus::Meshed);
+    for (const auto& corners : r.mesh.triangles) {
+      const Xyz middle = (r.mesh.points[corners[0]] + r.mesh.points[corners[1]] + r.mesh.points[corners[2]]) / 3.0;
+      EXPECT_LT(1.0 - middle.norm(), deflection);
+    }
+    EXPECT_GT(r.faces[0].largest_distance, 0.3 * deflection);  // nor is it far finer than asked for
+  }
+  MeshOptions o = of_size(1.0);
+  o.min_size = 0.5;
+  o.deflection = 0.001;
+  const MeshResult r = mesh_model(model, o);
+  EXPECT_EQ(r.faces[0].status, FaceStatus::Partial);
+  EXPECT_NE(r.faces[0].why.find("--min-size"), std::string::npos) << r.faces[0].why;
+}
+
 }  // namespace
 }  // namespace geovor
