@@ -16,14 +16,16 @@ namespace geovor {
 namespace {
 
 // No point stands nearer to another than this part of the size: rows that meet overlap by less than they leave open.
-constexpr double kApart = 0.72;
+constexpr double kApart = 0.77;
 // Nor to the border than this, where a whole edge is in the way.
 constexpr double kOffBorder = 0.45;
 // A way through a corner of the border meets both of its sides.
 constexpr double kCorner = 0.05;
 // Longer edges than this part of the size, between rows that met, are not built upon.
 constexpr double kLongest = 1.5;
-// The sides of a new triangle have the size, but follow the edge below them by this much.
+// The sides of a new triangle have the size and a little more, which makes up for the shorter ones where rows meet.
+constexpr double kSide = 1.002;
+// They follow the edge below them, between these parts of its length.
 constexpr double kShortestSide = 0.75, kLongestSide = 1.4;
 // The least height of a new triangle over its edge, in parts of the edge; for edges that are too long.
 constexpr double kLeastHeight = 0.32;
@@ -137,7 +139,7 @@ std::optional<MeshVertex> Fronts::drop(const Xyz& x, const MeshVertex& near) con
 std::optional<MeshVertex> Fronts::apex(const Edge& e) const {
   const MeshVertex &a = at(e.a), &b = at(e.b);
   const Xyz chord = b.x - a.x, n = (a.n + b.n).normalized();
-  const double c = chord.norm(), h = std::clamp(0.5 * (a.h + b.h), kShortestSide * c, kLongestSide * c);
+  const double c = chord.norm(), h = std::clamp(kSide * 0.5 * (a.h + b.h), kShortestSide * c, kLongestSide * c);
   const double height = std::sqrt(std::max(h * h - 0.25 * c * c, kLeastHeight * kLeastHeight * c * c));
   const Xyz target = 0.5 * (a.x + b.x) + height * n.cross(chord).normalized();
   if (auto v = drop(target, a)) return v;
