@@ -5,15 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "surface/forms.h"
-
 namespace geovor {
 namespace {
-
-// Below this share of its mean length a derivative counts as zero: rounding has eaten the digits of the normal.
-constexpr double kVanishing = 1e-7;
-// Below this sine the two derivatives count as parallel.
-constexpr double kParallel = 1e-9;
 
 // The first step, in parts of the way to the middle of the box, by which a singular point is left.
 constexpr double kFirstStep = 1e-6;
@@ -43,38 +36,22 @@ UvBox parameter_box(const CadFace& face) {
   return {widen(box.u, s.domain().u, s.u_period().has_value()), widen(box.v, s.domain().v, s.v_period().has_value())};
 }
 
-SurfaceProbe::SurfaceProbe(const Surface& surface, const UvBox& box) : surface_(surface), box_(box) {
-  constexpr int kGrid = 7;
-  double su = 0.0, sv = 0.0;
-  for (int i = 0; i < kGrid; ++i) {
-    for (int k = 0; k < kGrid; ++k) {
-      const SurfaceJet j =
-          surface.jet({box.u.lo + (i + 0.5) / kGrid * box.u.length(), box.v.lo + (k + 0.5) / kGrid * box.v.length()});
-      su += j.Su.norm();
-      sv += j.Sv.norm();
-    }
-  }
-  u_speed_ = su / (kGrid * kGrid);
-  v_speed_ = sv / (kGrid * kGrid);
-}
-
-bool SurfaceProbe::regular(const SurfaceJet& j) const {
-  const double a = j.Su.norm(), b = j.Sv.norm();
-  return a > kVanishing * u_speed_ && b > kVanishing * v_speed_ && j.Su.cross(j.Sv).norm() > kParallel * a * b;
-}
+SurfaceProbe::SurfaceProbe(const Surface& surface, const UvBox& box)
+    : surface_(surface), box_(box), shapes_(surface, box) {}
 
 SurfaceSample SurfaceProbe::at(Uv p) const {
-  SurfaceJet j = surface_.jet(p);
+  const SurfaceJet j = surface_.jet(p);
   SurfaceSample s;
   s.x = j.S;
-  s.regular = regular(j);
-  // The limit of normal and curvature: ever larger steps towards the middle, until the derivatives come back.
-  for (double step = kFirstStep; !regular(j) && step < 0.5; step *= 10.0) {
-    j = surface_.jet(lerp(p, {box_.u.middle(), box_.v.middle()}, step));
+  std::optional<Shape> shape = shapes_.at(p, j);
+  s.regular = shape.has_value();
+  // Ever larger steps towards the middle, until the derivatives come back.
+  for (double step = kFirstStep; !shape && step < 0.5; step *= 10.0) {
+    const Uv q = lerp(p, {box_.u.middle(), box_.v.middle()}, step);
+    shape = shapes_.at(q, surface_.jet(q));
   }
-  s.n = unit_normal(j);
-  if (!s.n.allFinite()) s.n = Xyz::Zero();
-  const double k = curvatures(j).largest();
+  s.n = shape && shape->n.allFinite() ? shape->n : Xyz(Xyz::Zero());
+  const double k = shape ? shape->largest_curvature() : 0.0;
   s.curvature = std::isfinite(k) ? k : 0.0;
   return s;
 }

@@ -2,15 +2,16 @@
 #pragma once
 
 #include "brep/model.h"
-#include "surface/surface.h"
+#include "surface/shape.h"
 
 namespace geovor {
 
 struct SurfaceSample {
   Xyz x;
-  Xyz n;  ///< unit normal Su x Sv / |Su x Sv|; at a pole its limit along the way to the middle of the box
+  Xyz n;                   ///< unit normal Su x Sv / |Su x Sv| or its limit: see ShapeField
   double curvature = 0.0;  ///< largest |normal curvature|
-  bool regular = true;     ///< false where Su and Sv do not span the tangent plane
+  bool regular = true;  ///< false where there is no tangent plane (the tip of a cone); n and curvature are those of a
+                        ///< place a little towards the middle of the box
 };
 
 /// The parameters of the face's border, a little enlarged, but inside the surface's domain in directions that are not
@@ -28,16 +29,13 @@ class SurfaceProbe {
   const Surface& surface() const { return surface_; }
   const UvBox& box() const { return box_; }
   /// Mean |Su| and |Sv| over the box: what a step of the parameters is worth in space.
-  double u_speed() const { return u_speed_; }
-  double v_speed() const { return v_speed_; }
+  double u_speed() const { return shapes_.u_speed(); }
+  double v_speed() const { return shapes_.v_speed(); }
 
  private:
-  bool regular(const SurfaceJet& j) const;
-
   const Surface& surface_;
   UvBox box_;
-  double u_speed_ = 1.0;
-  double v_speed_ = 1.0;
+  ShapeField shapes_;
 };
 
 }  // namespace geovor

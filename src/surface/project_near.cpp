@@ -138,11 +138,12 @@ bool damped_step(const Residual& s, const Hessian& H, double (&way)[2]) {
 // f is known to |r| times the rounding of positions, so that it resolves the foot to the root of that only: near the
 // end a step that leaves f unchanged, to rounding, is good if it lowers the tangential residual. Where the parameters
 // run slowly the jet tells less of the surface's size, and so of its rounding: a residual that falls much makes up for
-// it.
-bool better(const Residual& now, const Residual& then) {
+// it. On the way to the end of a line nothing falls any more.
+bool better(const Residual& now, const Residual& then, bool to_end) {
   constexpr double kMuch = 0.1, kSlower = 64.0;
   const double noise = kAim * now.rounding * (std::sqrt(2.0 * now.f) + now.rounding);
   if (then.f < now.f - noise) return true;
+  if (to_end && then.f <= now.f + noise) return true;
   return then.tangential < now.tangential &&
          then.f <= now.f + (then.tangential < kMuch * now.tangential ? kSlower * noise : noise);
 }
@@ -210,7 +211,7 @@ bool advance(Task& task, State& now) {
       const Retraction step = retract(now.p, way[0], way[1], lines[0], lines[1], box, turn);
       if (step.uv == now.p) continue;
       const State then{step.uv, task.residual(step.uv)};
-      if (!better(now.s, then.s)) continue;
+      if (!better(now.s, then.s, step.u_blocked || step.v_blocked)) continue;
       now = then;
       stop_at_end(task, now, step);
       return true;
