@@ -59,6 +59,7 @@ struct Task {
   Interval box[2];                   // infinite in periodic directions
   double period[2];                  // infinite where there is none
   double length[2];                  // of the box, or the period
+  double extent = 0.0;               // of the surface, as far as it was measured
   bool stopped[2] = {false, false};  // held at the end of the box at which the line stops
 
   Task(const Surface& s, const Xyz& x, const UvBox& given) : surface(s), point(x) {
@@ -85,7 +86,7 @@ struct Task {
     s.f = 0.5 * s.r.squaredNorm();
     s.tangential = 0.0;
     // Positions are sums of terms as large as the surface is over the box, wherever it lies.
-    double size = s.j.S.cwiseAbs().maxCoeff() + point.cwiseAbs().maxCoeff();
+    double size = extent + s.j.S.cwiseAbs().maxCoeff() + point.cwiseAbs().maxCoeff();
     for (int k : {0, 1}) {
       const Xyz& d = k == 0 ? s.j.Su : s.j.Sv;
       s.h[k] = d.norm();
@@ -222,7 +223,7 @@ bool advance(Task& task, State& now) {
 
 // The parameter at which a line has gone about `length` from p, inwards from the end of the box that is nearer; nothing
 // where it goes no faster there than at p, which is no end then at which it stops.
-std::optional<double> inwards(const Task& task, const State& from, int k, double length) {
+std::optional<double> inwards(Task& task, const State& from, int k, double length) {
   constexpr double kFaster = 30.0, kAbout = 3.0;
   constexpr int kTries = 10;
   const double x = at(from.p, k), L = task.length[k];
@@ -235,6 +236,7 @@ std::optional<double> inwards(const Task& task, const State& from, int k, double
   };
   double t = 0.5 * L, c = chord(t), power = 2.0;
   if (!(c > kFaster * from.s.h[k] * t && c > kAim * from.s.rounding)) return std::nullopt;
+  task.extent = std::max(task.extent, c);
   for (int i = 0; i < kTries && (c > kAbout * length || kAbout * c < length) && c > 0.0; ++i) {
     const double next = std::min(t * std::pow(length / c, 1.0 / power), 0.5 * L);
     if (next == t) break;
@@ -247,7 +249,7 @@ std::optional<double> inwards(const Task& task, const State& from, int k, double
 }
 
 // At the end of a line that stops there the gradient vanishes, or rounding has eaten it: go on from a place inside.
-bool leave_end(const Task& task, State& from, int k) {
+bool leave_end(Task& task, State& from, int k) {
   constexpr double kSlow = 1e-3, kShare = 0.1;
   const double distance = std::sqrt(2.0 * from.s.f);
   if (!(from.s.h[k] * task.length[k] < kSlow * distance)) return false;
