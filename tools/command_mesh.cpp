@@ -16,18 +16,20 @@
 #include "occ_adapter/write_step.h"
 #include "outputs.h"
 #include "parallel.h"
+#include "sizes_file.h"
 #include "stopwatch.h"
 
 namespace geovor {
 namespace {
 
-MeshOptions mesh_options(const MeshArguments& arguments, ProgressLine& progress) {
+MeshOptions mesh_options(const MeshArguments& arguments, const std::vector<FaceRule>& rules, ProgressLine& progress) {
   MeshOptions options;
   options.size = arguments.size;
   options.min_size = arguments.min_size;
   options.deflection = arguments.deflection;
   options.angle = arguments.angle * std::numbers::pi / 180.0;
   options.gradation = arguments.gradation;
+  options.face_rules = rules;
   options.faces = arguments.faces;
   options.for_each = for_each_on(arguments.threads);
   options.progress = [&progress](int done, int total) {
@@ -80,16 +82,19 @@ int run(const MeshArguments& arguments) {
   std::vector<std::string> paths = arguments.outputs;
   if (!arguments.report.empty()) paths.push_back(arguments.report);
   check_outputs(paths, arguments.input);
+  if (!arguments.sizes.empty()) check_outputs(paths, arguments.sizes);
   Stopwatch watch;
   const CadModel model = in_context(arguments.input, [&] {
     CadModel read = read_cad(arguments.input);
     check_faces_exist(arguments.faces, static_cast<int>(read.faces.size()));
     return read;
   });
+  const std::vector<FaceRule> rules =
+      arguments.sizes.empty() ? std::vector<FaceRule>{} : read_sizes_file(arguments.sizes, model);
   const double seconds_read = watch.lap();
   const MeshResult result = in_context(arguments.input, [&] {
     ProgressLine progress(arguments.progress, "faces meshed");
-    return mesh_model(model, mesh_options(arguments, progress));
+    return mesh_model(model, mesh_options(arguments, rules, progress));
   });
   watch.lap();
   MeshSummary summary = summarize(model, arguments, result);

@@ -92,11 +92,15 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
     return command->add_option(name, value, help)->check(length_check(zero_too))->type_name("LENGTH");
   };
   length("--size", arguments.size, "The length that an edge is to have")->required();
-  length("--min-size", arguments.min_size, "No rule asks for less than this (default: a twentieth of --size)");
+  length("--min-size", arguments.min_size,
+         "No rule asks for less than this (default: a twentieth of --size, or of a tenth of the part where --size is "
+         "more)");
   length("--deflection", arguments.deflection, "Largest distance from a triangle to the face (default: no limit)");
   length("--angle", arguments.angle, "Largest turn of the normal across an edge, degrees (default: 15)")
       ->type_name("DEG");
   length("--gradation", arguments.gradation, "How fast the size may grow with distance (default: 0.5)")->type_name("G");
+  command->add_option("--sizes", arguments.sizes, "CSV file face,size[,deflection,angle]: rules of single faces")
+      ->type_name("FILE");
   command->add_option("--faces", faces, "Faces to mesh, such as 1,4-9,Face12 (default: all)")->type_name("LIST");
   command->add_option("--threads", arguments.threads, "Threads to use (default: all cores)")
       ->check(whole_number_check(1))
@@ -175,6 +179,9 @@ CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI
     arguments.faces = in_context(arguments.input, [&] { return parse_face_list(faces); });
   }
   arguments.progress = progress_wish(command);
+  if (command.count("--sizes") > 0 && arguments.sizes.empty()) {
+    throw Error(ErrorCode::Usage, "--sizes names no file; give it the path of a CSV file");
+  }
   if (arguments.min_size > arguments.size) {
     throw Error(ErrorCode::Usage,
                 fmt::format("--min-size {} is above --size {}; lower it", arguments.min_size, arguments.size));

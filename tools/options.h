@@ -26,6 +26,7 @@ struct MeshArguments {
   double deflection = std::numeric_limits<double>::infinity();  ///< model units
   double angle = 15.0;                                          ///< degrees
   double gradation = 0.5;
+  std::string sizes;       ///< path of a CSV file with rules of single faces, empty: none
   std::vector<int> faces;  ///< empty: all
   int threads = 0;         ///< 0: all cores
   std::string report;      ///< path, empty: none

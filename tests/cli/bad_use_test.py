@@ -196,6 +196,12 @@ class BadSites(ProgramTest):
     def test_a_count_of_zero(self):
         self.voronoi_fails("--count: '0' won't do", "--count", 0)
 
+    def test_a_sizes_file_that_does_not_fit_the_file(self):
+        self.write("sizes.csv", "face,size\n# two lines\nnobody,1\n")
+        for name, words in (("sizes.csv", "sizes.csv: line 3: no face is named 'nobody'"),
+                            ("missing.csv", "missing.csv: the sizes file can't be read"), ("", "--sizes names no file")):
+            self.fail_with(USAGE, words, "mesh", sample("wave.step"), "--size", 1, "--sizes", name, "-o", "a.stl")
+
     def test_a_sites_file_that_is_missing(self):
         self.voronoi_fails("missing.csv", "--sites", "missing.csv")
 

@@ -44,6 +44,20 @@ class Mesh(ProgramTest):
         self.assertFalse(stl.is_closed(triangles))
         self.assertAlmostEqual(stl.area(triangles) / (600 * math.pi), 1, delta=5e-3)
 
+    def test_a_face_with_a_size_of_its_own_is_finer_and_the_plate_still_closed(self):
+        (self.folder / "sizes.csv").write_text("face,size\n# the first one only\nFace1,1\n")
+        self.mesh("plate.step", 4)
+        plain = {f["face"]: f for f in self.read_json("report.json")["faces"]}
+        self.mesh("plate.step", 4, "--sizes", self.folder / "sizes.csv")
+        report = self.read_json("report.json")
+        own = {f["face"]: f for f in report["faces"]}
+        self.assertEqual((own[1]["size"], own[2]["size"]), (1, 4))
+        self.assertTrue(report["options"]["sizes"].endswith("sizes.csv"))
+        # A size of 1 and not 4: 16 times as many triangles of sixteenth the area, fewer where the edges were fine before.
+        self.assertGreater(own[1]["triangles"], 8 * plain[1]["triangles"])
+        triangles, _ = stl.read_binary_stl(self.folder / "out.stl")
+        self.assertTrue(stl.is_closed(triangles))
+
     def test_all_formats_hold_the_same_triangles(self):
         self.mesh("cone.step", 2)
         from_stl, _ = stl.read_binary_stl(self.folder / "out.stl")
