@@ -6,11 +6,13 @@
 namespace geovor {
 namespace {
 
-// From this power on a line counts as one that stops at the end of the box; up to m^2 - 1 times the length from there
-// the speed is nearly constant otherwise, or Newton's steps are short enough.
+// From this power on a line counts as one that stops at the end of the box. It is 1 on a line of even speed, 2 and more
+// on one that stops smoothly.
 constexpr double kPower = 1.4;
 // Powers above this are rounding.
 constexpr double kMostPower = 12.0;
+// Steps that change the length from the end by less than this share may be straight: the error is of second order.
+constexpr double kShort = 1e-2;
 // A step that is this long, in distances from a pole, is made in polar coordinates.
 constexpr double kPolar = 0.1;
 constexpr double kTurn = 0.25;
@@ -34,9 +36,11 @@ Stop stop(double x, const LineSpeed& s, const Interval& box) {
 
 Moved along_line(double x, double way, const LineSpeed& s, const Interval& box, double turn) {
   if (way == 0.0) return {x};
+  const double straight = way / s.h;
   const Stop end = stop(x, s, box);
-  if (!end.stops()) return {box.clamp(x + std::clamp(way / s.h, -kTurn * turn, kTurn * turn))};
-  const double part = 1.0 + end.power * end.sign * way / (s.h * end.t);
+  if (!end.stops() || std::abs(straight) * end.power < kShort * end.t)
+    return {box.clamp(x + std::clamp(straight, -kTurn * turn, kTurn * turn))};
+  const double part = 1.0 + end.power * end.sign * straight / end.t;
   const double to = end.t * std::pow(std::fmax(part, kApproach), 1.0 / end.power);
   return {box.clamp(end.sign > 0.0 ? box.lo + to : box.hi - to), part < kApproach};
 }
