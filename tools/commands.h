@@ -9,6 +9,7 @@ int run(const InfoArguments& arguments);
 int run(const MeshArguments& arguments);
 int run(const VoronoiArguments& arguments);
 int run(const DistanceArguments& arguments);
+int run(const CheckArguments& arguments);
 inline int run(const NoArguments&) { return 0; }
 
 }  // namespace geovor

@@ -18,6 +18,7 @@ namespace {
 const std::vector<std::string> kMeshEndings = {".stl", ".step", ".stp", ".obj", ".svg"};
 const std::vector<std::string> kVoronoiEndings = {".json", ".step", ".stp", ".svg", ".vtp", ".html"};
 const std::vector<std::string> kDistanceEndings = {".json", ".step", ".stp", ".svg"};
+const std::vector<std::string> kCheckEndings = {".svg", ".html", ".json"};
 const std::vector<std::string> kReportEndings = {".json"};
 
 const char* const kFooter =
@@ -149,6 +150,23 @@ void add_distance(CLI::App& app, DistanceArguments& arguments, std::string& face
   command->add_flag("--snap", arguments.snap, "Move points that are off the face onto it, however far they are");
 }
 
+void add_check(CLI::App& app, CheckArguments& arguments) {
+  CLI::App* command = app.add_subcommand("check", "Measure a mesh, also another program's, against its CAD file");
+  command->add_option("MESH", arguments.mesh, "Mesh: .stl .obj .ply .off .vtp .msh .inp")->required()->type_name("");
+  command->add_option("--against", arguments.against, "CAD file that the mesh stands for")
+      ->required()
+      ->type_name("INPUT");
+  command->add_flag("--json", arguments.json, "Print JSON");
+  add_outputs(*command, arguments.outputs, ".svg .html (a sheet of the worst places) .json");
+  command->add_option("--threads", arguments.threads, "Threads to use (default: all cores)")
+      ->check(whole_number_check(1))
+      ->type_name("N");
+  command->footer(
+      "The exit code is 0 where the mesh was measured, good or bad; 2 where it or the CAD file can't be read; 3 where no\n"
+      "face of the CAD can be used. Lengths are in the unit of the CAD file as geovor info prints it: the mesh's numbers\n"
+      "are taken to be in the same unit.");
+}
+
 /// CLI11's messages run over several lines and end in full stops; ours are one line.
 std::string one_line(std::string text) {
   for (char& c : text) {
@@ -207,6 +225,11 @@ CommandLine checked(DistanceArguments arguments, const std::string& face, const 
   return arguments;
 }
 
+CommandLine checked(CheckArguments arguments) {
+  check_endings(arguments.outputs, kCheckEndings);
+  return arguments;
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
@@ -218,11 +241,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   MeshArguments mesh;
   VoronoiArguments voronoi;
   DistanceArguments distance;
+  CheckArguments check;
   std::string mesh_faces, face;
   add_info(app, info);
   add_mesh(app, mesh, mesh_faces);
   add_voronoi(app, voronoi, face);
   add_distance(app, distance, face);
+  add_check(app, check);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -233,6 +258,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   if (app.got_subcommand("info")) return info;
   if (app.got_subcommand("voronoi")) return checked(voronoi, face, *app.get_subcommand("voronoi"));
   if (app.got_subcommand("distance")) return checked(distance, face, *app.get_subcommand("distance"));
+  if (app.got_subcommand("check")) return checked(check);
   return checked(mesh, mesh_faces, *app.get_subcommand("mesh"));
 }
 

@@ -57,10 +57,19 @@ struct DistanceArguments {
   bool snap = false;  ///< points off the face are moved onto it
 };
 
+struct CheckArguments {
+  std::string mesh;
+  std::string against;  ///< CAD file
+  std::vector<std::string> outputs;
+  int threads = 0;  ///< 0: all cores
+  bool json = false;
+};
+
 /// Nothing left to do: the help or the version was printed.
 struct NoArguments {};
 
-using CommandLine = std::variant<NoArguments, InfoArguments, MeshArguments, VoronoiArguments, DistanceArguments>;
+using CommandLine =
+    std::variant<NoArguments, InfoArguments, MeshArguments, VoronoiArguments, DistanceArguments, CheckArguments>;
 
 /// Prints the help or the version on stdout where these are asked for. Throws Error(Usage), with one line that ends in
 /// where to read more.

@@ -2,14 +2,22 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace geovor {
 
 PictureProjection PictureProjection::isometric(const std::vector<Xyz>& points, const PageFrame& frame) {
+  return from(Xyz(1.0, -1.0, 1.0).normalized(), points, frame);
+}
+
+PictureProjection PictureProjection::from(const Xyz& towards_viewer, const std::vector<Xyz>& points,
+                                          const PageFrame& frame) {
+  constexpr double kFromAbove = 0.999;  // beyond, z has hardly any length on the page
   PictureProjection view;
-  view.towards_ = Xyz(1.0, -1.0, 1.0).normalized();
-  view.right_ = Xyz::UnitZ().cross(view.towards_).normalized();
+  view.towards_ = towards_viewer;
+  const Xyz upwards = std::abs(view.towards_.z()) > kFromAbove ? Xyz::UnitY() : Xyz::UnitZ();
+  view.right_ = upwards.cross(view.towards_).normalized();
   view.up_ = view.towards_.cross(view.right_);
   view.x_ = frame.left + 0.5 * frame.width;
   view.y_ = frame.top + 0.5 * frame.height;

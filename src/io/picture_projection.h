@@ -25,6 +25,9 @@ class PictureProjection {
   /// shifted so that the points fill the frame and stand in its middle.
   static PictureProjection isometric(const std::vector<Xyz>& points, const PageFrame& frame);
 
+  /// From any other direction, a unit vector; z upwards on the page, or y where the view is from above or below.
+  static PictureProjection from(const Xyz& towards_viewer, const std::vector<Xyz>& points, const PageFrame& frame);
+
   PagePoint operator()(const Xyz& p) const;
 
   /// Unit vectors of space.
