@@ -1,6 +1,7 @@
 // geovor mesh: from a CAD file to a triangle mesh.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <numbers>
 
 #include "base/error.h"
@@ -8,14 +9,12 @@
 #include "context.h"
 #include "face_list.h"
 #include "io/atomic_file.h"
-#include "io/mesh_picture.h"
-#include "io/write_obj.h"
-#include "io/write_stl.h"
+#include "mesh_formats.h"
 #include "mesh_report.h"
 #include "occ_adapter/read_cad.h"
-#include "occ_adapter/write_step.h"
 #include "outputs.h"
 #include "parallel.h"
+#include "pipeline/face_labels.h"
 #include "sizes_file.h"
 #include "stopwatch.h"
 
@@ -39,27 +38,14 @@ MeshOptions mesh_options(const MeshArguments& arguments, const std::vector<FaceR
   return options;
 }
 
-void write_mesh(const TriangleMesh& mesh, const std::string& unit, bool ascii, const std::string& path) {
-  const std::string format = ending(path);
-  if (format == ".stl") {
-    write_stl(mesh, path, ascii ? StlForm::Ascii : StlForm::Binary);
-  } else if (format == ".obj") {
-    write_obj(mesh, path);
-  } else if (format == ".svg") {
-    write_mesh_picture(mesh, path);
-  } else {
-    write_step(mesh, unit, path);
-  }
-}
-
 void write_outputs(MeshSummary& summary, Stopwatch& watch) {
   const MeshArguments& arguments = *summary.arguments;
+  const std::string title = std::filesystem::path(arguments.input).filename().string();
+  const LabelledMesh mesh{summary.result->mesh, face_labels(*summary.model), title, summary.model->unit};
   StagedOutputs outputs;
   for (const std::string& path : arguments.outputs) {
-    if (summary.result->mesh.triangles.empty()) break;
-    outputs.add(path, [&](const std::string& place) {
-      write_mesh(summary.result->mesh, summary.model->unit, arguments.ascii, place);
-    });
+    if (mesh.mesh.triangles.empty()) break;
+    outputs.add(path, [&](const std::string& place) { write_mesh(mesh, arguments, place); });
   }
   summary.seconds_write = watch.lap();
   if (!arguments.report.empty()) {

@@ -9,13 +9,13 @@
 #include "base/error.h"
 #include "context.h"
 #include "face_list.h"
+#include "mesh_formats.h"
 #include "numbers.h"
 #include "outputs.h"
 
 namespace geovor {
 namespace {
 
-const std::vector<std::string> kMeshEndings = {".stl", ".step", ".stp", ".obj", ".svg"};
 const std::vector<std::string> kVoronoiEndings = {".json", ".step", ".stp", ".svg", ".vtp", ".html"};
 const std::vector<std::string> kDistanceEndings = {".json", ".step", ".stp", ".svg"};
 const std::vector<std::string> kCheckEndings = {".svg", ".html", ".json"};
@@ -88,7 +88,7 @@ void add_info(CLI::App& app, InfoArguments& arguments) {
 void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
   CLI::App* command = app.add_subcommand("mesh", "Mesh the faces of a CAD file with triangles");
   add_input(*command, arguments.input);
-  add_outputs(*command, arguments.outputs, ".stl .step .stp .obj .svg (a picture)")->required();
+  add_outputs(*command, arguments.outputs, mesh_format_list())->required();
   const auto length = [&](const char* name, double& value, const char* help, bool zero_too = false) {
     return command->add_option(name, value, help)->check(length_check(zero_too))->type_name("LENGTH");
   };
@@ -109,6 +109,12 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
   command->add_option("--report", arguments.report, "Write what was done, face by face, as JSON")
       ->type_name("FILE.json");
   add_progress(*command);
+  command
+      ->add_option("--step-form", arguments.step_form,
+                   "How .step holds triangles: faceted (default; a planar face each) or tessellated (AP242, short)")
+      ->transform(CLI::Transformer(
+          std::map<std::string, StepForm>{{"faceted", StepForm::Faceted}, {"tessellated", StepForm::Tessellated}}))
+      ->type_name("FORM");
   command->add_flag("--ascii", arguments.ascii, "Write .stl as text");
   command->add_flag("--strict", arguments.strict, "Write nothing unless every face was meshed");
 }
@@ -191,7 +197,7 @@ std::optional<int> face_of(const std::string& text, const std::string& input, co
 }
 
 CommandLine checked(MeshArguments arguments, const std::string& faces, const CLI::App& command) {
-  check_endings(arguments.outputs, kMeshEndings);
+  check_endings(arguments.outputs, mesh_format_endings());
   if (command.count("--report") > 0) check_endings({arguments.report}, kReportEndings);
   if (command.count("--faces") > 0) {
     arguments.faces = in_context(arguments.input, [&] { return parse_face_list(faces); });

@@ -18,6 +18,11 @@ struct InfoArguments {
   bool json = false;
 };
 
+enum class StepForm {
+  Faceted,      ///< a planar face a triangle: any CAD system reads it
+  Tessellated,  ///< AP242's triangulated faces: short, for systems that know them
+};
+
 struct MeshArguments {
   std::string input;
   std::vector<std::string> outputs;
@@ -31,6 +36,7 @@ struct MeshArguments {
   int threads = 0;         ///< 0: all cores
   std::string report;      ///< path, empty: none
   ProgressWish progress = ProgressWish::WhereTerminal;
+  StepForm step_form = StepForm::Faceted;
   bool ascii = false;   ///< .stl as text
   bool strict = false;  ///< write nothing unless every face was meshed
 };

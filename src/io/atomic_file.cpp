@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 
 #include "base/error.h"
 
@@ -57,17 +58,23 @@ AtomicFile::~AtomicFile() {
   if (pending_) fs::remove(place_, ignored);
 }
 
-void AtomicFile::write(std::string_view bytes) {
+void AtomicFile::write(const std::function<void(const Drain&)>& produce) {
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
   errno = 0;
-  std::FILE* file = std::fopen(place_.c_str(), "wb");
-  if (file == nullptr) fail(std::strerror(errno));
+  std::unique_ptr<std::FILE, Close> file(std::fopen(place_.c_str(), "wb"));
+  if (!file) fail(std::strerror(errno));
+  produce([&](std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) fail(std::strerror(errno));
+  });
   // A full disk may show only when the last buffer goes out: each step is looked at.
-  bool good = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  good = good && std::fflush(file) == 0;
-  const int reason = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!good) fail(std::strerror(reason));
-  if (!closed) fail(std::strerror(errno));
+  if (std::fflush(file.get()) != 0) fail(std::strerror(errno));
+  if (std::fclose(file.release()) != 0) fail(std::strerror(errno));
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  write([bytes](const Drain& drain) { drain(bytes); });
 }
 
 void AtomicFile::commit() {

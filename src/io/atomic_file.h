@@ -1,6 +1,7 @@
 // Files that are complete or absent.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -20,7 +21,11 @@ class AtomicFile {
   /// Where to write, for a writer that wants a path of its own.
   const std::string& place() const { return place_; }
 
-  /// Replaces the content of place(). Throws Error(Unwritable).
+  /// Takes the next bytes of a file.
+  using Drain = std::function<void(std::string_view bytes)>;
+
+  /// Replaces the content of place(), by what `produce` hands to its drain, piece by piece. Throws Error(Unwritable).
+  void write(const std::function<void(const Drain&)>& produce);
   void write(std::string_view bytes);
 
   /// Moves place() to the path. Throws Error(Unwritable).

@@ -1,13 +1,12 @@
 #include "io/diagram_html.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "io/atomic_file.h"
+#include "io/base64.h"
 #include "io/cell_colours.h"
 #include "io/diagram_page.h"
 #include "io/number_text.h"
@@ -21,30 +20,20 @@ constexpr float kEye = 1e-4F;
 /// Little-endian bytes on every machine, then base 64.
 class Bytes {
  public:
-  void add(std::uint32_t x) {
-    for (int k = 0; k < 4; ++k) bytes_.push_back(static_cast<unsigned char>(x >> (8 * k)));
-  }
-  void add(float x) { add(std::bit_cast<std::uint32_t>(x)); }
+  void add(std::uint32_t x) { stream_.word(x); }
+  void add(float x) { stream_.real(x); }
   void add(const Eigen::Vector3f& x) {
     for (int k = 0; k < 3; ++k) add(x[k]);
   }
 
-  std::string base64() const {
-    static const char* const kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes_.size(); i += 3) {
-      std::uint32_t word = 0;
-      for (size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes_.size() ? bytes_[i + k] : 0U);
-      for (int k = 0; k < 4; ++k) {
-        const bool beyond = i + static_cast<size_t>(k) > bytes_.size();
-        text += beyond ? '=' : kDigits[word >> (18 - 6 * k) & 63U];
-      }
-    }
-    return text;
+  std::string base64() {
+    stream_.flush();
+    return bytes_of([this](ByteStream& out) { put_base64(out, [this](ByteStream& bytes) { bytes << bytes_; }); });
   }
 
  private:
-  std::vector<unsigned char> bytes_;
+  std::string bytes_;
+  ByteStream stream_{[this](std::string_view piece) { bytes_ += piece; }};
 };
 
 /// The face moved and scaled into the ball of radius 1.
@@ -67,29 +56,14 @@ struct Frame {
   Eigen::Vector3f operator()(const Xyz& x) const { return ((x - middle) / size).cast<float>(); }
 };
 
-std::string escaped(const std::string& text, bool script) {
-  std::string out;
-  for (char c : text) {
-    if (c == '<' || c == '>' || c == '&' || (script && (c == '"' || c == '\\')) ||
-        static_cast<unsigned char>(c) < 0x20) {
-      const int code = static_cast<unsigned char>(c);
-      constexpr char kHex[] = "0123456789abcdef";
-      out += script ? std::string("\\u00") + kHex[code >> 4] + kHex[code & 15] : "&#" + std::to_string(code) + ";";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 class PageData {
  public:
   PageData(const VoronoiDiagram& diagram, const CellMesh& cells, const PageFacts& facts)
       : diagram_(diagram), cells_(cells), facts_(facts), frame_(cells, diagram) {}
 
   std::string script() const {
-    std::string text =
-        "{\"title\":\"" + escaped(facts_.title, true) + "\",\"unit\":\"" + escaped(facts_.unit, true) + "\",\"size\":";
+    std::string text = "{\"title\":\"" + script_escaped(facts_.title) + "\",\"unit\":\"" + script_escaped(facts_.unit) +
+                       "\",\"size\":";
     append_shortest(text, frame_.size);
     text += ",\"points\":\"" + points() + "\",\"normals\":\"" + normals() + "\",\"owners\":\"" + owners() +
             "\",\"triangles\":\"" + triangles() + "\",\"lines\":\"" + lines() + "\",\"sites\":\"" + sites() +
@@ -194,13 +168,10 @@ class PageData {
 }  // namespace
 
 std::string diagram_html(const VoronoiDiagram& diagram, const CellMesh& cells, const PageFacts& facts) {
-  std::string page = kDiagramPage;
-  const auto fill = [&](const std::string& mark, const std::string& text) {
-    page.replace(page.find(mark), mark.size(), text);
-  };
-  fill("@DATA@", PageData(diagram, cells, facts).script());
-  fill("@TITLE@", escaped(facts.title, false));
-  return page;
+  const PageParts parts{facts.title,
+                        "click: mark a cell &middot;\nkeys: arrows, + &minus;, R whole face, E edges, S sites, C cells",
+                        [&](ByteStream& out) { out << PageData(diagram, cells, facts).script(); }};
+  return bytes_of([&](ByteStream& out) { put_page(parts, out); });
 }
 
 void write_diagram_html(const VoronoiDiagram& diagram, const CellMesh& cells, const PageFacts& facts,

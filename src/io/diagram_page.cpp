@@ -1,8 +1,11 @@
 #include "io/diagram_page.h"
 
-namespace geovor {
+#include <string_view>
 
-const char* const kDiagramPage = R"page(<!DOCTYPE html>
+namespace geovor {
+namespace {
+
+constexpr std::string_view kPage = R"page(<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -21,8 +24,7 @@ canvas { display: block; width: 100%; height: 100%; touch-action: none; outline:
 <canvas id="view" tabindex="0"></canvas>
 <div id="title"></div>
 <div id="label"></div>
-<div id="help">drag: turn &middot; right button or Shift: move &middot; wheel: zoom &middot; click: mark a cell &middot;
-keys: arrows, + &minus;, R whole face, E edges, S sites, C cells</div>
+<div id="help">drag: turn &middot; right button or Shift: move &middot; wheel: zoom &middot; @KEYS@</div>
 <script type="application/json" id="data">@DATA@</script>
 <script>
 'use strict';
@@ -74,7 +76,7 @@ const owners = words('owners'), points = floats('points');
 const tints = new Uint8Array(4 * owners.length), names = new Uint8Array(4 * owners.length);
 owners.forEach((owner, i) => {
   const site = Math.floor(owner / 16) + 1;
-  tints.set(palette[owner % 16].map(x => 255 * x), 4 * i);
+  tints.set(data.tints ? data.tints[site - 1] : palette[owner % 16].map(x => 255 * x), 4 * i);
   names.set([site & 255, site >> 8 & 255, site >> 16 & 255, 255], 4 * i);
 });
 const triangles = words('triangles');
@@ -117,6 +119,21 @@ const lineProgram = program(head +
   'precision highp float; varying float s; uniform vec3 colour; uniform float dash;' +
   'void main() { if (dash > 0. && fract(s / dash) > .5) discard; gl_FragColor = vec4(colour, 1.); }');
 
+// Sides of triangles: an edge inside a face runs once each way, one at its border is among the lines.
+const sides = { count: 0 };
+if (data.side) {
+  const ends = new Uint32Array(triangles.length + triangles.length % 2);
+  for (let t = 0; t < triangles.length; t += 3) {
+    for (let k = 0; k < 3; ++k) {
+      const a = triangles[t + k], b = triangles[t + (k + 1) % 3];
+      if (a < b) { ends[sides.count++] = a; ends[sides.count++] = b; }
+    }
+  }
+  sides.index = buffer(ends.subarray(0, sides.count), gl.ELEMENT_ARRAY_BUFFER);
+}
+const sideProgram = program(head + 'attribute vec3 p; void main() { gl_Position = seen(p, .0005); }',
+  'precision highp float; uniform float strength; void main() { gl_FragColor = vec4(.11, .15, .2, strength); }');
+
 // Sites.
 const sites = floats('sites'), siteBuffer = buffer(sites);
 const siteProgram = program(head + 'attribute vec3 p; uniform float width;' +
@@ -156,7 +173,7 @@ function rotate(dx, dy) {
   view.q = q.map(x => x / l);
   redraw();
 }
-let view = start(), shown = { cells: true, edges: true, sites: true }, over = -1, marked = -1, pending = false, touched = false;
+let view = start(), shown = { cells: true, edges: true, sites: true, sides: true }, over = -1, marked = -1, pending = false, touched = false;
 
 function place() {  // at zoom 1 the unit ball fills the smaller side
   const s = view.zoom, w = canvas.width, h = canvas.height, m = Math.min(w, h);
@@ -196,6 +213,16 @@ function paintLines() {
     gl.drawElements(gl.TRIANGLES, lines.sets[kind][1], gl.UNSIGNED_INT, 0);
   });
 }
+function paintSides() {  // fainter where they would cover the faces
+  const u = uniforms(sideProgram), pixels = .5 * data.side * view.zoom * Math.min(canvas.width, canvas.height);
+  attribute(sideProgram, 'p', cells.p, 3);
+  gl.uniform1f(u('strength'), Math.min(.7, Math.max(.08, pixels / 25)));
+  gl.enable(gl.BLEND);
+  gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, sides.index);
+  gl.drawElements(gl.LINES, sides.count, gl.UNSIGNED_INT, 0);
+  gl.disable(gl.BLEND);
+}
 function paintSites() {
   const u = uniforms(siteProgram), many = Math.sqrt(sites.length / 3);
   gl.uniform1f(u('width'), Math.max(3, Math.min(11, 120 / many)) * Math.min(2, Math.sqrt(view.zoom)) * (window.devicePixelRatio || 1));
@@ -219,6 +246,7 @@ function draw() {
   }
   clear(.957, .961, .969);
   if (shown.cells) paintCells(false);
+  if (shown.sides && sides.count) paintSides();
   paintLines();
   if (shown.sites) paintSites();
 }
@@ -254,7 +282,7 @@ function tell() {
   const site = marked >= 0 ? marked : over;
   label.style.display = site >= 0 ? 'block' : 'none';
   const area = data.areas[site];
-  if (site >= 0) label.textContent = 'site ' + site + (area === null ? '' : '\narea ' + area.toPrecision(7) + ' ' + data.unit + '\u00b2');
+  if (site >= 0) label.textContent = (data.names ? data.names[site] : 'site ' + site) + (area === null ? '' : '\narea ' + area.toPrecision(7) + ' ' + data.unit + '\u00b2');
 }
 
 const fingers = new Map();
@@ -322,6 +350,7 @@ canvas.addEventListener('keydown', e => {
     ArrowDown: () => rotate(0, step), '+': () => zoomAt(1.2, ...middle), '=': () => zoomAt(1.2, ...middle),
     '-': () => zoomAt(1 / 1.2, ...middle), r: () => { view = start(); touched = false; }, Home: () => { view = start(); touched = false; },
     e: () => { shown.edges = !shown.edges; }, s: () => { shown.sites = !shown.sites; }, c: () => { shown.cells = !shown.cells; },
+    t: () => { shown.sides = !shown.sides; },
     Escape: () => { marked = -1; tell(); } };
   const act = keys[e.key] || keys[e.key.toLowerCase()];
   if (!act || e.ctrlKey || e.metaKey || e.altKey) return;
@@ -335,5 +364,48 @@ redraw();
 </body>
 </html>
 )page";
+
+/// Any text inside HTML.
+std::string html_escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '<' || c == '>' || c == '&' || code < 0x20) {
+      out += "&#" + std::to_string(code) + ";";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string script_escaped(const std::string& text) {
+  constexpr char kHex[] = "0123456789abcdef";
+  std::string out;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '<' || c == '>' || c == '&' || c == '"' || c == '\\' || code < 0x20) {
+      out += std::string("\\u00") + kHex[code >> 4] + kHex[code & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+void put_page(const PageParts& parts, ByteStream& out) {
+  std::string_view rest = kPage;
+  const auto up_to = [&](std::string_view mark) {
+    const std::size_t at = rest.find(mark);
+    out << rest.substr(0, at);
+    rest.remove_prefix(at + mark.size());
+  };
+  up_to("@TITLE@"), out << html_escaped(parts.title);
+  up_to("@KEYS@"), out << parts.keys;
+  up_to("@DATA@"), parts.data(out);
+  out << rest;
+}
 
 }  // namespace geovor

@@ -1,33 +1,21 @@
-#include "io/write_obj.h"
-
-#include "io/atomic_file.h"
-#include "io/number_text.h"
+#include "io/face_groups.h"
+#include "io/mesh_writers.h"
 
 namespace geovor {
 
-std::string to_obj(const TriangleMesh& mesh) {
-  std::string text = "# geovor " + std::to_string(mesh.points.size()) + " points, " +
-                     std::to_string(mesh.triangles.size()) + " triangles\n";
-  for (const Xyz& p : mesh.points) {
-    text += 'v';
-    for (const double x : p) {
-      text += ' ';
-      append_shortest(text, x);
+void put_obj(const LabelledMesh& labelled, ByteStream& out) {
+  const TriangleMesh& mesh = labelled.mesh;
+  out << "# geovor " << mesh.points.size() << " points, " << mesh.triangles.size() << " triangles\n";
+  for (const Xyz& p : mesh.points) out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  // A group's name ends at white space.
+  const FaceGroups groups(labelled, NameAlphabet::Word);
+  for (const FaceGroup& group : groups) {
+    out << "g " << group.name << '\n';
+    for (const int t : group.triangles) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      out << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';  // OBJ counts from 1
     }
-    text += '\n';
   }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (t == 0 || mesh.face_of[t] != mesh.face_of[t - 1]) text += "g Face" + std::to_string(mesh.face_of[t]) + '\n';
-    text += 'f';
-    for (const int p : mesh.triangles[t]) {
-      text += ' ';
-      text += std::to_string(p + 1);  // OBJ counts from 1
-    }
-    text += '\n';
-  }
-  return text;
 }
-
-void write_obj(const TriangleMesh& mesh, const std::string& path) { write_file(path, to_obj(mesh)); }
 
 }  // namespace geovor

@@ -1,20 +1,13 @@
-#include "io/write_stl.h"
-
 #include <Eigen/Geometry>
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
-#include "io/number_text.h"
+#include "io/mesh_writers.h"
 
 namespace geovor {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 80;
-constexpr std::size_t kTriangleBytes = 50;  // twelve floats and two bytes of attributes
 
 Xyz normal_of(const TriangleMesh& mesh, const std::array<int, 3>& t) {
   const Xyz n = (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]);
@@ -22,12 +15,8 @@ Xyz normal_of(const TriangleMesh& mesh, const std::array<int, 3>& t) {
   return n.isZero(0.0) ? Xyz(Xyz::Zero()) : n.stableNormalized();
 }
 
-void append_uint32(std::string& bytes, std::uint32_t x) {
-  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((x >> shift) & 0xff);
-}
-
-void append_floats(std::string& bytes, const Xyz& p) {
-  for (const double x : p) append_uint32(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(x)));
+void put_floats(const Xyz& p, ByteStream& out) {
+  for (const double x : p) out.real(static_cast<float>(x));
 }
 
 void check_fits(const TriangleMesh& mesh) {
@@ -41,49 +30,43 @@ void check_fits(const TriangleMesh& mesh) {
   }
 }
 
-std::string binary(const TriangleMesh& mesh) {
+void put_binary(const TriangleMesh& mesh, ByteStream& out) {
   check_fits(mesh);
   // The first word must not be "solid": readers would take the file for text.
-  std::string bytes = "geovor binary STL";
-  bytes.reserve(kHeaderBytes + 4 + kTriangleBytes * mesh.triangles.size());
-  bytes.resize(kHeaderBytes, ' ');
-  append_uint32(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  std::string header = "geovor binary STL";
+  header.resize(kHeaderBytes, ' ');
+  out << header;
+  out.word(static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const auto& t : mesh.triangles) {
-    append_floats(bytes, normal_of(mesh, t));
-    for (const int p : t) append_floats(bytes, mesh.points[p]);
-    bytes.append(2, '\0');
+    put_floats(normal_of(mesh, t), out);
+    for (const int p : t) put_floats(mesh.points[p], out);
+    out.byte(0), out.byte(0);
   }
-  return bytes;
 }
 
-void append_line(std::string& text, const char* words, const Xyz& p) {
-  text += words;
-  for (const double x : p) {
-    text += ' ';
-    append_shortest(text, x);
-  }
-  text += '\n';
+void put_line(const char* words, const Xyz& p, ByteStream& out) {
+  out << words << ' ' << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
 }
 
-std::string ascii(const TriangleMesh& mesh) {
-  std::string text = "solid geovor\n";
+void put_ascii(const TriangleMesh& mesh, ByteStream& out) {
+  out << "solid geovor\n";
   for (const auto& t : mesh.triangles) {
-    append_line(text, "facet normal", normal_of(mesh, t));
-    text += "outer loop\n";
-    for (const int p : t) append_line(text, "vertex", mesh.points[p]);
-    text += "endloop\nendfacet\n";
+    put_line("facet normal", normal_of(mesh, t), out);
+    out << "outer loop\n";
+    for (const int p : t) put_line("vertex", mesh.points[p], out);
+    out << "endloop\nendfacet\n";
   }
-  return text + "endsolid geovor\n";
+  out << "endsolid geovor\n";
 }
 
 }  // namespace
 
-std::string to_stl(const TriangleMesh& mesh, StlForm form) {
-  return form == StlForm::Binary ? binary(mesh) : ascii(mesh);
-}
-
-void write_stl(const TriangleMesh& mesh, const std::string& path, StlForm form) {
-  write_file(path, to_stl(mesh, form));
+void put_stl(const TriangleMesh& mesh, StlForm form, ByteStream& out) {
+  if (form == StlForm::Binary) {
+    put_binary(mesh, out);
+  } else {
+    put_ascii(mesh, out);
+  }
 }
 
 }  // namespace geovor

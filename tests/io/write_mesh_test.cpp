@@ -8,9 +8,8 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "io/mesh_writers.h"
 #include "io/number_text.h"
-#include "io/write_obj.h"
-#include "io/write_stl.h"
 
 namespace geovor {
 namespace {
@@ -29,6 +28,14 @@ TriangleMesh wild_mesh(double largest_exponent) {
     mesh.face_of.push_back(1 + i / 100);
   }
   return mesh;
+}
+
+std::string to_stl(const TriangleMesh& mesh, StlForm form) {
+  return bytes_of([&](ByteStream& out) { put_stl(mesh, form, out); });
+}
+
+std::string to_obj(const TriangleMesh& mesh) {
+  return bytes_of([&](ByteStream& out) { put_obj({mesh}, out); });
 }
 
 std::uint32_t uint32_at(const std::string& bytes, std::size_t at) {
