@@ -3,7 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <numeric>
+#include <set>
 
 #include "delaunay/edge_set.h"
 
@@ -13,7 +16,9 @@ namespace {
 using Triangle = std::array<int, 3>;
 
 // A gap with more corners is no gap but a hole.
-constexpr int kLargestGap = 12;
+constexpr int kLargestGap = 60;
+// So many times the triangles around gaps that can't be filled are taken out.
+constexpr int kMostDigs = 6;
 
 class Patchwork {
  public:
@@ -30,39 +35,18 @@ class Patchwork {
     triangles_.push_back(t);
   }
 
-  // The edges that a triangle should still be to the left of, joined to polygons.
+  // Fills the gaps; where one can't be filled, because triangles around it overlap, they are taken out and it is tried
+  // again. Points that lose all their triangles so are left over.
   bool fill() {
-    std::vector<int> after(points_.size(), -1);
-    std::vector<int> starts;
-    const auto missing = [&](int a, int b) {
-      if (edges_.has(a, b)) return true;
-      if (after[a] >= 0) return false;  // two gaps meet in a point: which goes with which is not known
-      after[a] = b;
-      starts.push_back(a);
-      return true;
-    };
-    for (const Triangle& t : triangles_) {
-      for (int k = 0; k < 3; ++k) {
-        const int a = t[k], b = t[(k + 1) % 3];
-        if (!is_border_edge(a, b) && !missing(b, a)) return false;
+    for (int dig = 0; dig < kMostDigs; ++dig) {
+      std::set<int> spoilt;
+      for (const std::vector<int>& gap : gaps()) {
+        if (!cut_ears(gap)) spoilt.insert(gap.begin(), gap.end());
       }
+      if (spoilt.empty()) return true;
+      take_out(spoilt);
     }
-    for (size_t a = 0; a < border_.points.size(); ++a) {
-      if (!missing(static_cast<int>(a), border_.next[a])) return false;
-    }
-    for (const int start : starts) {
-      if (after[start] < 0) continue;
-      std::vector<int> gap;
-      for (int v = start; v >= 0 && after[v] >= 0;) {
-        gap.push_back(v);
-        const int next = after[v];
-        after[v] = -1;
-        v = next;
-        if (static_cast<int>(gap.size()) > kLargestGap) return false;
-      }
-      if (!cut_ears(gap)) return false;
-    }
-    return true;
+    return false;
   }
 
   /// Nothing unless every edge has its triangles, every point one fan of them, and all hang together.
@@ -77,25 +61,107 @@ class Patchwork {
     for (int k = 0; k < 3; ++k) edges_.insert(t[k], t[(k + 1) % 3]);
   }
 
+  void take_out(const std::set<int>& around) {
+    const auto touches = [&around](const Triangle& t) {
+      return std::any_of(t.begin(), t.end(), [&around](int v) { return around.count(v) > 0; });
+    };
+    triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), touches), triangles_.end());
+    edges_ = EdgeSet();
+    for (const Triangle& t : triangles_) insert(t);
+  }
+
+  // The edges that should still have a triangle on their left, by where they start.
+  std::map<int, std::vector<int>> missing() const {
+    std::map<int, std::vector<int>> after;
+    const auto add = [&](int a, int b) {
+      if (!edges_.has(a, b)) after[a].push_back(b);
+    };
+    for (const Triangle& t : triangles_) {
+      for (int k = 0; k < 3; ++k) {
+        if (!is_border_edge(t[k], t[(k + 1) % 3])) add(t[(k + 1) % 3], t[k]);
+      }
+    }
+    for (size_t a = 0; a < border_.points.size(); ++a) add(static_cast<int>(a), border_.next[a]);
+    return after;
+  }
+
+  // Those edges joined to polygons. Where gaps meet in a point each goes on with its own edge: the first one clockwise
+  // from where it came.
+  std::vector<std::vector<int>> gaps() const {
+    std::vector<std::vector<int>> result;
+    auto after = missing();
+    while (!after.empty()) {
+      std::vector<int> gap = {after.begin()->first};
+      int from = gap[0], to = take(after, from, -1);
+      while (to != gap[0] && after.count(to) > 0) {
+        gap.push_back(to);
+        const int next = take(after, to, from);
+        from = to;
+        to = next;
+      }
+      result.push_back(std::move(gap));
+    }
+    return result;
+  }
+
+  int take(std::map<int, std::vector<int>>& after, int at, int from) const {
+    const auto place = after.find(at);
+    std::vector<int>& ends = place->second;
+    size_t best = 0;
+    for (size_t i = 1; from >= 0 && i < ends.size(); ++i) {
+      if (clockwise(at, from, ends[i]) < clockwise(at, from, ends[best])) best = i;
+    }
+    const int end = ends[best];
+    ends.erase(ends.begin() + static_cast<long>(best));
+    if (ends.empty()) after.erase(place);
+    return end;
+  }
+
+  // The angle by which the direction to b lies clockwise of that to a, in (0, 2 pi].
+  double clockwise(int at, int a, int b) const {
+    const MeshVertex& v = points_[at];
+    const Xyz p = points_[a].x - v.x, q = points_[b].x - v.x;
+    const double angle = std::atan2(v.n.dot(q.cross(p)), q.dot(p) - v.n.dot(p) * v.n.dot(q));
+    return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
+  }
+
   // The ear with the widest smallest angle first.
   bool cut_ears(std::vector<int> gap) {
-    while (gap.size() >= 3) {
+    if (gap.size() < 3 || gap.size() > kLargestGap) return false;
+    while (true) {
       const int n = static_cast<int>(gap.size());
       int best = -1;
       double widest = 0.0;
       for (int i = 0; i < n; ++i) {
-        const Triangle t = {gap[(i + n - 1) % n], gap[i], gap[(i + 1) % n]};
-        const double w = n > 3 && edges_.has(t[0], t[2]) ? -1.0 : width(t);
-        if (w > widest) best = i, widest = w;
+        const Triangle t = ear(gap, i);
+        const double w = width(t);
+        if (w > widest && (n == 3 || (!edges_.has(t[0], t[2]) && is_free(gap, t)))) best = i, widest = w;
       }
       if (best < 0) return false;
-      const Triangle t = {gap[(best + n - 1) % n], gap[best], gap[(best + 1) % n]};
+      const Triangle t = ear(gap, best);
       insert(t);
       triangles_.push_back(t);
       if (n == 3) return true;
       gap.erase(gap.begin() + best);
     }
-    return false;
+  }
+
+  static Triangle ear(const std::vector<int>& gap, int i) {
+    const int n = static_cast<int>(gap.size());
+    return {gap[(i + n - 1) % n], gap[i], gap[(i + 1) % n]};
+  }
+
+  // Whether no other corner of the gap lies in the ear.
+  bool is_free(const std::vector<int>& gap, const Triangle& t) const {
+    const MeshVertex& m = points_[t[1]];
+    return std::none_of(gap.begin(), gap.end(), [&](int v) {
+      if (v == t[0] || v == t[1] || v == t[2]) return false;
+      for (int k = 0; k < 3; ++k) {
+        const Xyz &a = points_[t[k]].x, &b = points_[t[(k + 1) % 3]].x;
+        if (m.n.dot((b - a).cross(points_[v].x - a)) < 0.0) return false;
+      }
+      return true;
+    });
   }
 
   // Twice the area over the square of the longest side; negative where the triangle faces the wrong way.

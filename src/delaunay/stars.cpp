@@ -97,6 +97,29 @@ class Stars {
       const Flat flat(chord.dot(e1), chord.dot(e2));
       near_.push_back({j, geodesic_estimate(a, b) / flat.norm() * flat});
     });
+    leave_hidden_out(i);
+  }
+
+  // Behind an edge of the border there may be other parts of the face: they are no neighbours.
+  void leave_hidden_out(int i) {
+    walls_.clear();
+    for (const Neighbour& n : near_) {
+      if (!is_border(n.v) || border_.next[n.v] == i || n.v == i) continue;
+      const auto b =
+          std::find_if(near_.begin(), near_.end(), [&](const Neighbour& m) { return m.v == border_.next[n.v]; });
+      if (b != near_.end()) walls_.push_back({n, *b});
+    }
+    if (walls_.empty()) return;
+    const auto hidden = [this](const Neighbour& n) {
+      return std::any_of(walls_.begin(), walls_.end(), [&n](const auto& wall) {
+        const auto& [a, b] = wall;
+        if (a.v == n.v || b.v == n.v) return false;
+        const Flat side = b.y - a.y;
+        // The ways to n and along the wall meet inside of both.
+        return cross(n.y, a.y) * cross(n.y, b.y) < 0.0 && cross(side, -a.y) * cross(side, n.y - a.y) < 0.0;
+      });
+    };
+    near_.erase(std::remove_if(near_.begin(), near_.end(), hidden), near_.end());
   }
 
   const Neighbour* first_neighbour(int i) const {
@@ -166,6 +189,7 @@ class Stars {
   std::vector<std::array<int, 2>> link_;  ///< of all stars: the sides that face their points
   std::vector<int> begin_;                ///< of a star in link_
   std::vector<Neighbour> near_;
+  std::vector<std::array<Neighbour, 2>> walls_;  ///< edges of the border near by
   std::vector<const Neighbour*> circle_;
 };
 
