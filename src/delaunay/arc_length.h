@@ -1,8 +1,10 @@
 // The way along a curve as a function of its parameter, and back.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "base/interval.h"
 #include "surface/curve.h"
 
 namespace geovor {
@@ -14,18 +16,29 @@ class ArcLength {
   ArcLength(const Curve3& curve, Interval range);
 
   /// NaN where the curve's derivative is.
-  double length() const { return s_.back(); }
+  double length() const { return length_; }
   /// The way from the start to a parameter of the range.
   double at(double t) const;
   /// The parameter at the way s from the start; the range's ends for s <= 0 and s >= length().
   double parameter(double s) const;
 
  private:
-  void add(double lo, double hi, double whole, int depth);
+  static constexpr int kNodes = 10;
+  /// A piece on which the speed is a polynomial, by its Legendre coefficients over the piece.
+  struct Piece {
+    Interval range;
+    double way = 0.0;  ///< from the start of the curve
+    double length = 0.0;
+    std::array<double, kNodes> speed{};
+    double at(double x) const;  ///< the way from the piece's start to x in [-1, 1]
+  };
+  Piece piece(Interval range) const;
+  void add(const Piece& whole, int depth);
 
   const Curve3& curve_;
-  double exact_ = 0.0;         ///< a difference of lengths below this is rounding
-  std::vector<double> t_, s_;  ///< ends of pieces over which Gauss' rule is exact
+  double exact_ = 0.0;  ///< a difference of lengths below this is rounding
+  double length_ = 0.0;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace geovor
