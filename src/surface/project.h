@@ -13,7 +13,11 @@ struct Projection {
       false;  ///< the residual is orthogonal to the surface, to rounding, or uv lies on the border of `box`
 };
 
-/// Newton's method (with Gauss-Newton as the fallback) from `guess`, kept inside `box` in the non-periodic directions.
+/// The foot near `guess`, by Newton's method (with Gauss-Newton as the fallback), kept inside `box` in the non-periodic
+/// directions. The guess may lie anywhere within about a third of a radius of curvature of the foot, in space: also at a
+/// pole, or on a side of the box along which Su or Sv vanishes. Where the nearest point lies beyond the box, the foot is
+/// the nearest one on its border, and exactly on it. (A line that stops inside the box, or at the seam of a closed
+/// surface, is not looked for.)
 Projection project_near(const Surface& surface, const Xyz& point, Uv guess, const UvBox& box);
 
 /// The nearest foot over the whole of `box`: project_near from the best points of a grid that is finer where the
