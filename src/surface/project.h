@@ -14,9 +14,9 @@ struct Projection {
 };
 
 /// The foot near `guess`, by Newton's method (with Gauss-Newton as the fallback), kept inside `box` in the non-periodic
-/// directions. The guess may lie anywhere within about a third of a radius of curvature of the foot, in space: also at a
-/// pole, or on a side of the box along which Su or Sv vanishes. Where the nearest point lies beyond the box, the foot is
-/// the nearest one on its border, and exactly on it. (A line that stops inside the box, or at the seam of a closed
+/// directions. The guess may lie anywhere within about a third of a radius of curvature of the foot, in space: also at
+/// a pole, or on a side of the box along which Su or Sv vanishes. Where the nearest point lies beyond the box, the foot
+/// is the nearest one on its border, and exactly on it. (A line that stops inside the box, or at the seam of a closed
 /// surface, is not looked for.)
 Projection project_near(const Surface& surface, const Xyz& point, Uv guess, const UvBox& box);
 
