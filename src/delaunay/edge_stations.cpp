@@ -60,7 +60,7 @@ class Looker {
   }
   double size_at(double t) const;
   void between(double s0, double h0, double s1, double h1, int depth);
-  bool spike(double s0, double s1, double h) const;
+  double least_between(double s0, double s1) const;
   void add(double s, double h) {
     stations_.s.push_back(s);
     stations_.h.push_back(h);
@@ -69,7 +69,10 @@ class Looker {
   const CadEdge& edge_;
   const std::vector<EdgeUse>& uses_;
   EdgeStations stations_;
-  std::vector<double> spans_;  // arc lengths of places between the curve's knots
+  struct Span {
+    double s, h;
+  };
+  std::vector<Span> spans_;  // the places half way between the curve's knots
   double size_ = std::numeric_limits<double>::infinity();
   double step_ = 0.0;
 };
@@ -92,19 +95,22 @@ double Looker::size_at(double t) const {
   return in_steps(h, size_);
 }
 
-bool Looker::spike(double s0, double s1, double h) const {
-  for (auto s = std::upper_bound(spans_.begin(), spans_.end(), s0); s != spans_.end() && *s < s1; ++s) {
-    if (size_at(parameter(*s, kInside)) < kSpike * h) return true;
-  }
-  return false;
+// The smallest size between the curve's knots within the step.
+double Looker::least_between(double s0, double s1) const {
+  double least = size_;
+  const auto first =
+      std::upper_bound(spans_.begin(), spans_.end(), s0, [](double s, const Span& p) { return s < p.s; });
+  for (auto span = first; span != spans_.end() && span->s < s1; ++span) least = std::min(least, span->h);
+  return least;
 }
 
 // The stations inside a step.
 void Looker::between(double s0, double h0, double s1, double h1, int depth) {
-  const double least = std::min(h0, h1);
+  const double spike = least_between(s0, s1), least = std::min({h0, h1, spike});
   if (depth == kMostHalvings || !(s1 - s0 > kResolved * least)) return;
   const double s = 0.5 * (s0 + s1), h = size_at(parameter(s, kInside));
-  if (!(std::abs(h - 0.5 * (h0 + h1)) > kUneven * h) && !spike(s0, s1, least)) return;
+  const bool even = !(std::abs(h - 0.5 * (h0 + h1)) > kUneven * h);
+  if (even && !(spike < kSpike * std::min(h0, h1))) return;
   between(s0, h0, s, h, depth + 1);
   add(s, h);
   between(s, h, s1, h1, depth + 1);
@@ -118,7 +124,8 @@ EdgeStations Looker::run() {
   ends.push_back(edge_.range.hi);
   double last = edge_.range.lo;
   for (double end : ends) {
-    if (ends.size() > 1) spans_.push_back(stations_.way.at(0.5 * (last + end)));
+    const double t = 0.5 * (last + end);
+    if (ends.size() > 1) spans_.push_back({stations_.way.at(t), size_at(t)});
     last = end;
   }
   Xyz last_tangent = Xyz::Zero();

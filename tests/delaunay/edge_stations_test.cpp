@@ -22,11 +22,11 @@ EdgeStations look(Curve3Ptr curve, Interval range, const SizeRule& rule) {
 
 double least(const EdgeStations& st) { return *std::min_element(st.h.begin(), st.h.end()); }
 
-// Two lines of length 10 joined by a parabola between (10 - l, 0) and (10, l), whose curvature is sqrt(2) / l at its
-// vertex: a thousandth of the way on a curve that is straight elsewhere.
+// Lines of the lengths 10 and 7.3 joined by a parabola between (10 - l, 0) and (10, l), whose curvature is sqrt(2) / l
+// at its vertex: a thousandth of the way on a curve that is straight elsewhere.
 Curve3Ptr sharp_bend(double l) {
-  const std::vector<Xyz> poles = {{0, 0, 0},  {5, 0, 0},  {10 - l, 0, 0}, {10, 0, 0},
-                                  {10, l, 0}, {10, 5, 0}, {10, 10, 0}};
+  const std::vector<Xyz> poles = {{0, 0, 0},  {5, 0, 0},     {10 - l, 0, 0}, {10, 0, 0},
+                                  {10, l, 0}, {10, 3.65, 0}, {10, 7.3, 0}};
   return std::make_shared<BSplineCurve<3>>(KnotVector({0, 1, 2, 3}, {3, 2, 2, 3}, 2, false), poles);
 }
 
