@@ -171,7 +171,7 @@ Sum MeshSampler::edges() {
   std::vector<double> largest(edges.size(), 0.0);
   const Sum sum = in_chunks(static_cast<int>(edges.size()), for_each_, [&](int e, Sum& part) {
     const Xyz a = mesh_.points[edges[e].from], d = mesh_.points[edges[e].to] - a;
-    const int n = std::max(2, steps(d.norm(), step_));
+    const int n = 2 * steps(0.5 * d.norm(), step_);  // even: the middle is where a chord is farthest off
     for (int k = 1; k < n; ++k) take(a + d * k / n, edges[e].triangles.front(), 0.0, largest[e], part);
   });
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -222,8 +222,9 @@ void MeshSampler::climb_from_worst() {
   start[1] = std::min(inside((pp * r.dot(q) - pq * r.dot(p)) / det), 1.0 - start[0]);
   constexpr double kStep = 0.25;
   climb(start, {kStep, kStep}, [&](const std::array<double, 2>& k) {
-    if (!(k[0] >= 0.0 && k[1] >= 0.0 && k[0] + k[1] <= 1.0)) return -1.0;
-    const Xyz x = a + k[0] * p + k[1] * q;
+    // Held inside by clamping, so that rounding does not stop a walk along a side.
+    const double k0 = inside(k[0]), k1 = std::clamp(k[1], 0.0, 1.0 - k0);
+    const Xyz x = a + k0 * p + k1 * q;
     const CadPlace place = cad_.nearest(x);
     if (place.distance > worst.largest) {
       worst.largest = place.distance;

@@ -10,7 +10,7 @@ class Help(ProgramTest):
 
     def test_help_names_every_command(self):
         text = self.succeed("--help")
-        for command in ("info", "mesh", "voronoi", "distance"):
+        for command in ("info", "mesh", "voronoi", "distance", "check"):
             self.assertIn(f"\n  {command} ", text)
 
     def test_help_tells_the_exit_codes(self):

@@ -111,6 +111,20 @@ TEST(CheckMesh, TheMeanDistanceIsTheIntegralOverTheTriangles) {
   EXPECT_NEAR(c.on_cad.distance.rms, std::sqrt(squares / n), 0.01 * std::sqrt(squares / n));
 }
 
+// An obtuse triangle comes nearest to the middle of the sphere in the middle of its longest side, whichever that is.
+TEST(CheckMesh, TheMiddleOfALongSideIsFarthestFromTheSphere) {
+  constexpr double kRadius = 4.0;
+  const auto on_sphere = [](double longitude, double latitude) {
+    return Xyz(kRadius * std::cos(latitude) * std::cos(longitude), kRadius * std::cos(latitude) * std::sin(longitude),
+               kRadius * std::sin(latitude));
+  };
+  const std::vector<Xyz> points{on_sphere(0.2, 0.0), on_sphere(1.2, 0.0), on_sphere(0.6, 0.1)};
+  for (const std::array<int, 3>& t : {std::array{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}) {
+    const MeshCheck c = check(loaded(points, {t}), whole_sphere(kRadius));
+    EXPECT_NEAR(c.on_cad.distance.largest, kRadius * (1.0 - std::cos(0.5)), 1e-9);
+  }
+}
+
 TEST(CheckMesh, FaultsAreFoundWhereTheyWereMade) {
   constexpr double kRadius = 3.0;
   LoadedMesh mesh = icosahedron(kRadius);
