@@ -53,9 +53,7 @@ class Patchwork {
   std::optional<HalfEdges> whole() const;
 
  private:
-  bool is_border_edge(int a, int b) const {
-    return a < static_cast<int>(border_.points.size()) && border_.next[a] == b;
-  }
+  bool is_border_edge(int a, int b) const { return border_.on_border(a) && border_.next[a] == b; }
 
   void insert(const Triangle& t) {
     for (int k = 0; k < 3; ++k) edges_.insert(t[k], t[(k + 1) % 3]);
@@ -81,7 +79,7 @@ class Patchwork {
         if (!is_border_edge(t[k], t[(k + 1) % 3])) add(t[(k + 1) % 3], t[k]);
       }
     }
-    for (size_t a = 0; a < border_.points.size(); ++a) add(static_cast<int>(a), border_.next[a]);
+    for (int a = 0; border_.on_border(a); ++a) add(a, border_.next[a]);
     return after;
   }
 

@@ -1,7 +1,10 @@
 #include "delaunay/face_border.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "surface/pole_chart.h"
 
@@ -10,13 +13,24 @@ namespace {
 
 // Where the normals of both sides of a seam agree this well the surface goes on smoothly.
 constexpr double kSmoothCosine = 0.9999;
-// Points of a seam at which the normals are compared.
+// Places of a seam, or of a pole's side, at which the normals are looked at.
 constexpr int kLooks = 9;
+// A mean of unit normals that is shorter says nothing.
+constexpr double kLeastMean = 1e-6;
 
 Uv parameters_at(const Coedge& c, double t) {
   const auto p = c.pcurve->position(t);
   return {p.x(), p.y()};
 }
+
+// The points of one use of an edge, in the direction of the loop.
+struct Run {
+  std::vector<int> points;  ///< numbers among BorderPoints
+  std::vector<Uv> uv;
+  int loop = 0;
+  int first = -1;        ///< the number of its first vertex
+  int followed_by = -1;  ///< the run that goes on
+};
 
 class Collector {
  public:
@@ -27,101 +41,180 @@ class Collector {
     for (const TrimLoop& loop : face_.loops) {
       for (const Coedge& c : loop.coedges) uses_[c.edge].push_back(&c);
     }
-    for (const TrimLoop& loop : face_.loops) {
-      for (const Coedge& c : loop.coedges) {
-        if (!result_.why.empty()) return result_;
+    for (size_t i = 0; i < face_.loops.size(); ++i) {
+      for (const Coedge& c : face_.loops[i].coedges) {
         if (border_.edges[c.edge].points.size() == 1) {
-          pole(c);
-        } else if (!is_seam(c)) {
-          add(c);
+          look_at_pole(c);
+        } else if (!is_smooth_seam(c)) {
+          add_run(c, static_cast<int>(i));
         }
       }
     }
-    if (result_.why.empty()) check();
-    return result_;
+    if (link_runs()) {
+      place_points();
+      add_tips();
+    } else {
+      result_.why = "its border is open";
+    }
+    check();
+    return std::move(result_);
   }
 
  private:
-  bool is_seam(const Coedge& c) {
-    const auto& both = uses_[c.edge];
-    if (both.size() < 2) return false;
-    if (both.size() > 2 || both[0]->reversed == both[1]->reversed || !smooth(*both[0], *both[1])) {
-      result_.why = "it meets itself along an edge, but not smoothly";
-    }
-    return true;
-  }
-
-  // Both sides are elsewhere in the parameter plane, a period apart: an edge inside the face has one place.
-  bool smooth(const Coedge& a, const Coedge& b) const {
+  // Used twice, in opposite directions, at two places of the parameter plane that are a period apart.
+  bool is_smooth_seam(const Coedge& c) const {
+    const auto& both = uses_.at(c.edge);
+    if (both.size() != 2 || both[0]->reversed == both[1]->reversed) return false;
     for (int i = 0; i < kLooks; ++i) {
-      const double t = a.range.lo + (i + 0.5) / kLooks * a.range.length();
-      const Uv p = parameters_at(a, t), q = parameters_at(b, t);
+      const double t = both[0]->range.lo + (i + 0.5) / kLooks * both[0]->range.length();
+      const Uv p = parameters_at(*both[0], t), q = parameters_at(*both[1], t);
       if (p == q || !(probe_.at(p).n.dot(probe_.at(q).n) > kSmoothCosine)) return false;
     }
     return true;
   }
 
-  void pole(const Coedge& c) {
+  void look_at_pole(const Coedge& c) {
     const Uv middle = parameters_at(c, c.range.lo + 0.5 * c.range.length());
-    const auto& charts = probe_.surface().poles();
-    const bool is_smooth =
-        std::any_of(charts.begin(), charts.end(), [&](const auto& chart) { return chart->holds(middle); });
-    const int point = border_.edges[c.edge].points[0];
-    if (!is_smooth) tips_.push_back(point);
+    for (const auto& chart : probe_.surface().poles()) {
+      if (chart->holds(middle)) return;
+    }
+    Xyz mean = Xyz::Zero();
+    for (int i = 0; i < kLooks; ++i)
+      mean += probe_.at(parameters_at(c, c.range.lo + (i + 0.5) / kLooks * c.range.length())).n;
+    Tip& tip = tips_[border_.edges[c.edge].points[0]];
+    tip.normals += mean;
+    tip.uv = middle;
+    (std::abs(parameters_at(c, c.range.lo).u - middle.u) > std::abs(parameters_at(c, c.range.lo).v - middle.v)
+         ? tip.free_u
+         : tip.free_v) = true;
   }
 
-  void add(const Coedge& c) {
+  void add_run(const Coedge& c, int loop) {
     const BorderPoints::Edge& e = border_.edges[c.edge];
-    const int n = static_cast<int>(e.points.size());
-    for (int i = 0; i + 1 < n; ++i) {
-      const int k = c.reversed ? n - 1 - i : i, after = c.reversed ? k - 1 : k + 1;
-      const int a = vertex(e.points[k], parameters_at(c, e.t[k])),
-                b = vertex(e.points[after], parameters_at(c, e.t[after]));
-      if (a == b || result_.next[a] >= 0 || result_.before[b] >= 0) {
-        result_.why = "its border passes a point twice";
-        return;
+    Run run;
+    run.loop = loop;
+    run.points = e.points;
+    for (const double t : e.t) run.uv.push_back(parameters_at(c, t));
+    if (c.reversed) {
+      std::reverse(run.points.begin(), run.points.end());
+      std::reverse(run.uv.begin(), run.uv.end());
+    }
+    runs_.push_back(std::move(run));
+  }
+
+  // The run after it in the loop, or, where a seam lay between, the first one that begins at its end.
+  bool link_runs() {
+    const int n = static_cast<int>(runs_.size());
+    std::vector<char> is_taken(n, 0);
+    const auto link = [&](int i, int k) {
+      if (runs_[i].followed_by >= 0 || is_taken[k] || runs_[i].points.back() != runs_[k].points.front()) return;
+      runs_[i].followed_by = k;
+      is_taken[k] = 1;
+    };
+    for (int i = 0; i < n; ++i) {
+      int k = (i + 1) % n;
+      if (runs_[k].loop != runs_[i].loop)
+        k = static_cast<int>(
+            std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.loop == runs_[i].loop; }) -
+            runs_.begin());
+      link(i, k);
+    }
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < n; ++k) link(i, k);
+    }
+    return std::all_of(runs_.begin(), runs_.end(), [](const Run& r) { return r.followed_by >= 0; });
+  }
+
+  void place_points() {
+    for (Run& run : runs_) {
+      run.first = static_cast<int>(result_.points.size());
+      for (size_t i = 0; i + 1 < run.points.size(); ++i)
+        add_point(run.points[i], run.uv[i], probe_.at(run.uv[i]).n, false);
+    }
+    for (const Run& run : runs_) {
+      const int last = run.first + static_cast<int>(run.points.size()) - 2;
+      for (int v = run.first; v <= last; ++v) {
+        const int w = v < last ? v + 1 : runs_[run.followed_by].first;
+        result_.next[v] = w;
+        result_.before[w] = v;
       }
-      result_.next[a] = b;
-      result_.before[b] = a;
     }
   }
 
-  int vertex(int point, Uv uv) {
-    const auto [place, is_new] = number_.try_emplace(point, static_cast<int>(result_.points.size()));
-    if (is_new) {
-      MeshVertex v;
-      v.x = border_.points[point];
-      v.n = probe_.at(uv).n;
-      v.h = border_.size[point];
-      v.border = point;
-      v.uv = {uv};
-      result_.points.push_back(v);
-      result_.next.push_back(-1);
-      result_.before.push_back(-1);
+  // A tip on the border takes its mean normal; one in the middle of the face stands alone.
+  void add_tips() {
+    for (const auto& [point, tip] : tips_) {
+      const bool says_something = tip.normals.norm() > kLeastMean;
+      bool is_on_border = false;
+      for (size_t i = 0; i < result_.points.size(); ++i) {
+        if (result_.points[i].border != point) continue;
+        is_on_border = true;
+        result_.is_tip[i] = 1;
+        if (says_something) result_.points[i].n = tip.normals.normalized();
+      }
+      if (is_on_border) continue;
+      add_point(point, tip.uv, tip.normals.normalized(), true);
+      result_.points.back().free_u = tip.free_u;
+      result_.points.back().free_v = tip.free_v;
     }
-    return place->second;
+  }
+
+  void add_point(int point, Uv uv, const Xyz& n, bool is_tip) {
+    MeshVertex v;
+    v.x = border_.points[point];
+    v.n = n;
+    v.h = border_.size[point];
+    v.border = point;
+    v.uv = {uv};
+    result_.points.push_back(v);
+    result_.next.push_back(-1);
+    result_.before.push_back(-1);
+    result_.is_tip.push_back(is_tip ? 1 : 0);
   }
 
   void check() {
-    for (size_t i = 0; i < result_.points.size(); ++i) {
-      if (result_.next[i] < 0 || result_.before[i] < 0) result_.why = "its border is open";
-      if (!(result_.points[i].n.squaredNorm() > 0.5)) result_.why = "it has no normal at its border";
+    std::map<int, int> passes;
+    for (const MeshVertex& v : result_.points) {
+      ++passes[v.border];
+      if (!(v.n.squaredNorm() > 0.5)) result_.why = "it has no normal at its border";
     }
-    for (const int tip : tips_) {
-      if (number_.count(tip) == 0) result_.why = "it has a tip";
+    for (const MeshVertex& v : result_.points) result_.is_one_of_many.push_back(passes[v.border] > 1 ? 1 : 0);
+    for (size_t i = 0; i < result_.points.size(); ++i) {
+      if (result_.next[i] == static_cast<int>(i) || (result_.next[i] >= 0 && result_.next[i] == result_.before[i])) {
+        result_.why = "its border has too few points";
+      }
     }
   }
+
+  struct Tip {
+    Xyz normals = Xyz::Zero();
+    Uv uv;
+    bool free_u = false, free_v = false;
+  };
 
   const CadFace& face_;
   const SurfaceProbe& probe_;
   const BorderPoints& border_;
   FaceBorder result_;
   std::map<int, std::vector<const Coedge*>> uses_;  ///< of an edge
-  std::map<int, int> number_;                       ///< of a border point
-  std::vector<int> tips_;
+  std::vector<Run> runs_;
+  std::map<int, Tip> tips_;  ///< of a border point
 };
 
+// The angle about n by which b lies counter-clockwise of a, in (0, 2 pi].
+double turn(const Xyz& n, const Xyz& a, const Xyz& b) {
+  const double angle = std::atan2(n.dot(a.cross(b)), a.dot(b) - n.dot(a) * n.dot(b));
+  return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
+}
+
 }  // namespace
+
+bool FaceBorder::sees(int i, const Xyz& x) const {
+  if (next[i] < 0) return true;
+  const MeshVertex& v = points[i];
+  const Xyz ahead = points[next[i]].x - v.x;
+  return turn(v.n, ahead, x - v.x) < turn(v.n, ahead, points[before[i]].x - v.x);
+}
 
 FaceBorder face_border(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border) {
   return Collector(face, probe, border).run();

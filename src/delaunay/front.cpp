@@ -45,12 +45,13 @@ class Fronts {
     for (size_t i = 0; i < points_.size(); ++i) {
       grid_.add(points_[i].x);
       border_grid_.add(points_[i].x);
+      if (!border.on_border(static_cast<int>(i))) continue;
       longest_border_ = std::max(longest_border_, (at(border.next[i]).x - points_[i].x).norm());
     }
   }
 
   std::vector<MeshVertex> run() {
-    if (border_.points.empty()) {
+    if (longest_border_ == 0.0) {
       begin_anywhere();
     } else {
       begin_at_border();
@@ -70,6 +71,7 @@ class Fronts {
   PlaceOrder::Key key(const Edge& e) const { return order_.key(0.5 * (at(e.a).x + at(e.b).x)); }
   void begin_at_border() {
     for (size_t i = 0; i < border_.points.size(); ++i) {
+      if (!border_.on_border(static_cast<int>(i))) continue;
       const Edge e{static_cast<int>(i), border_.next[i]};
       used_.insert(e.a, e.b), used_.insert(e.b, e.a);
       rows_.push_back(e);
@@ -82,6 +84,7 @@ class Fronts {
   std::optional<MeshVertex> apex(const Edge& e) const;
   void advance(const Edge& e);
   int nearest(const MeshVertex& v, double reach);
+  bool faces(int w, const MeshVertex& v) const;
   bool meets_border(const Xyz& from, const MeshVertex& v, const Edge& e);
   void close(const Edge& e, int c, std::deque<Edge>& queue);
 
@@ -158,13 +161,12 @@ void Fronts::advance(const Edge& e) {
   if (!meets_border(0.5 * (at(e.a).x + at(e.b).x), *v, e)) close(e, put(*v), rows_);
 }
 
-// On the same side of the face: another sheet of it may be near in space.
 int Fronts::nearest(const MeshVertex& v, double reach) {
   int near = -1;
   double least = reach;
   grid_.each_near(v.x, reach, [&](int w) {
     const double d = (at(w).x - v.x).norm();
-    if (!(d < least + kAsNear * reach) || !(at(w).n.dot(v.n) > 0.0)) return;
+    if (!(d < least + kAsNear * reach) || !faces(w, v)) return;
     const bool tied = near >= 0 && d > least - kAsNear * reach;
     if (!tied && !(d < least)) return;
     if (tied && !(order_.key(at(w).x) < order_.key(at(near).x))) return;
@@ -174,14 +176,25 @@ int Fronts::nearest(const MeshVertex& v, double reach) {
   return near;
 }
 
+// Another sheet of the face may be near in space, or the other side of the border.
+bool Fronts::faces(int w, const MeshVertex& v) const {
+  const bool is_fixed = w < static_cast<int>(border_.points.size());
+  if (is_fixed && border_.is_tip[w]) return true;
+  if (is_fixed && border_.is_one_of_many[w] && !border_.sees(w, v.x)) return false;
+  return at(w).n.dot(v.n) > 0.0;
+}
+
 // Whether the border runs between the middle of the edge and the point, or close by the point.
 bool Fronts::meets_border(const Xyz& from, const MeshVertex& v, const Edge& e) {
   if (longest_border_ == 0.0) return false;
   bool meets = false;
   const Xyz way = v.x - from;
   const auto look_at = [&](int a) {
+    if (meets || !border_.on_border(a)) return;
     const int b = border_.next[a];
-    if (meets || (a == e.a && b == e.b) || !(at(a).n.dot(v.n) > 0.0)) return;
+    const bool is_same = a == e.a && b == e.b;
+    const bool is_other_side = at(a).border == at(e.b).border && at(b).border == at(e.a).border && at(a).border >= 0;
+    if (is_same || is_other_side || !(at(a).n.dot(v.n) > 0.0)) return;
     const Xyz p = at(a).x - v.x, s = at(b).x - at(a).x;
     const double k = std::clamp(-p.dot(s) / s.squaredNorm(), 0.0, 1.0);
     if ((p + k * s).norm() < kOffBorder * v.h) {
@@ -196,7 +209,7 @@ bool Fronts::meets_border(const Xyz& from, const MeshVertex& v, const Edge& e) {
   };
   border_grid_.each_near(v.x, std::max(way.norm(), kOffBorder * v.h) + 0.5 * longest_border_, [&](int w) {
     look_at(w);
-    look_at(border_.before[w]);
+    if (border_.on_border(w)) look_at(border_.before[w]);
   });
   return meets;
 }

@@ -64,7 +64,8 @@ class Stars {
     }
   };
 
-  bool is_border(int i) const { return i < static_cast<int>(border_.points.size()); }
+  bool is_border(int i) const { return border_.on_border(i); }
+  bool is_fixed(int i) const { return i < static_cast<int>(border_.points.size()); }
 
   bool has(int i, int j, int k) const {
     return std::find(link_.begin() + begin_[i], link_.begin() + begin_[i + 1], std::array<int, 2>{j, k}) !=
@@ -93,11 +94,20 @@ class Stars {
     grid_.each_near(a.x, reach, [&](int j) {
       const MeshVertex& b = points_[j];
       const Xyz chord = b.x - a.x;
-      if (j == i || !(chord.squaredNorm() < reach * reach) || !(b.n.dot(a.n) > kLeastCosine)) return;
+      const double d2 = chord.squaredNorm();
+      if (j == i || !(d2 < reach * reach) || !(d2 > 0.0) || !faces(i, j)) return;
       const Flat flat(chord.dot(e1), chord.dot(e2));
+      if (!(flat.norm() > 0.0)) return;
       near_.push_back({j, geodesic_estimate(a, b) / flat.norm() * flat});
     });
     leave_hidden_out(i);
+  }
+
+  // On one side of the face, and of the border where that passes a place more than once.
+  bool faces(int i, int j) const {
+    if (is_fixed(j) && border_.is_one_of_many[j] && !border_.sees(j, points_[i].x)) return false;
+    if ((is_fixed(i) && border_.is_tip[i]) || (is_fixed(j) && border_.is_tip[j])) return true;
+    return points_[i].n.dot(points_[j].n) > kLeastCosine;
   }
 
   // Behind an edge of the border there may be other parts of the face: they are no neighbours.
