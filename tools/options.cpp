@@ -51,6 +51,17 @@ CLI::Validator whole_number_check(int least) {
       "");
 }
 
+const std::string kFaceted = "faceted", kTessellated = "tessellated";
+
+CLI::Validator step_form_check() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        if (text == kFaceted || text == kTessellated) return {};
+        return fmt::format("'{}' won't do; give {} or {}", text, kFaceted, kTessellated);
+      },
+      "");
+}
+
 CLI::Option* add_face(CLI::App& command, std::string& face) {
   return command.add_option("--face", face, "The face, such as 3 or Face3 (not needed where the file has one)")
       ->type_name("N");
@@ -110,10 +121,13 @@ void add_mesh(CLI::App& app, MeshArguments& arguments, std::string& faces) {
       ->type_name("FILE.json");
   add_progress(*command);
   command
-      ->add_option("--step-form", arguments.step_form,
-                   "How .step holds triangles: faceted (default; a planar face each) or tessellated (AP242, short)")
-      ->transform(CLI::Transformer(
-          std::map<std::string, StepForm>{{"faceted", StepForm::Faceted}, {"tessellated", StepForm::Tessellated}}))
+      ->add_option_function<std::string>(
+          "--step-form",
+          [&arguments](const std::string& form) {
+            arguments.step_form = form == kTessellated ? StepForm::Tessellated : StepForm::Faceted;
+          },
+          "How .step holds triangles: faceted (a planar face each; the default) or tessellated (AP242, short)")
+      ->check(step_form_check())
       ->type_name("FORM");
   command->add_flag("--ascii", arguments.ascii, "Write .stl as text");
   command->add_flag("--strict", arguments.strict, "Write nothing unless every face was meshed");
@@ -168,8 +182,10 @@ void add_check(CLI::App& app, CheckArguments& arguments) {
       ->check(whole_number_check(1))
       ->type_name("N");
   command->footer(
-      "The exit code is 0 where the mesh was measured, good or bad; 2 where it or the CAD file can't be read; 3 where no\n"
-      "face of the CAD can be used. Lengths are in the unit of the CAD file as geovor info prints it: the mesh's numbers\n"
+      "The exit code is 0 where the mesh was measured, good or bad; 2 where it or the CAD file can't be read; 3 where "
+      "no\n"
+      "face of the CAD can be used. Lengths are in the unit of the CAD file as geovor info prints it: the mesh's "
+      "numbers\n"
       "are taken to be in the same unit.");
 }
 

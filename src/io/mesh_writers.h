@@ -32,11 +32,12 @@ void put_mesh_vtp(const LabelledMesh& labelled, ByteStream& out);
 void put_msh(const LabelledMesh& labelled, ByteStream& out);
 
 /// Abaqus: S3 elements, an element set a face. A number has at most 20 characters, all that solvers read: magnitudes
-/// from 0.01 to 1e16 read back as the same doubles, others to 14 digits at least.
+/// from 0.01 to 1e16 read back as the same doubles, others to 13 digits at least.
 void put_inp(const LabelledMesh& labelled, ByteStream& out);
 
-/// I-DEAS universal file: nodes (as the same doubles), thin-shell triangles, a group a face. Without a dataset of units:
-/// readers multiply by its factor where its definition says divide, and leave the numbers alone where there is none.
+/// I-DEAS universal file: nodes (as the same doubles), thin-shell triangles, a group a face. Without a dataset of
+/// units: readers multiply by its factor where its definition says divide, and leave the numbers alone where there is
+/// none.
 void put_unv(const LabelledMesh& labelled, ByteStream& out);
 
 /// glTF 2.0 in one binary file: a node with one primitive a face, metres, y up, smooth normals within each face. Single

@@ -82,6 +82,10 @@ class BadCommandLine(ProgramTest):
     def test_an_unknown_flag_is_named(self):
         self.mesh_fails("--colour", "--size", 1, "-o", "out.stl", "--colour", "red")
 
+    def test_step_form_has_two_names(self):
+        self.mesh_fails("--step-form: 'brep' won't do; give faceted or tessellated", "--size", 1, "-o", "out.step",
+                        "--step-form", "brep")
+
     def test_a_negative_size(self):
         self.mesh_fails("'-1' won't do; give a number greater than 0", "--size", -1, "-o", "out.stl")
 
