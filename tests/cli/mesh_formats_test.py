@@ -184,6 +184,10 @@ class MeshFormats(ProgramTest):
         self.triangles = [[self.points[i] for i in t] for group in self.groups.values() for t in group]
         self.sizes = {name: len(group) for name, group in self.groups.items()}
 
+    def check_same(self, found, expected, what):
+        """As assertEqual, which would take minutes to tell how long lists differ."""
+        self.assertTrue(found == expected, what)
+
     def python(self, script, *arguments):
         self.write("look.py", script)
         done = subprocess.run([SYSTEM_PYTHON, "-W", "ignore", "look.py", *arguments], cwd=self.folder, capture_output=True,
@@ -205,7 +209,7 @@ class MeshFormats(ProgramTest):
                         for x, y in zip(p, q):
                             self.assertTrue(x == y or abs(y) < 0.01 and abs(x - y) <= 1e-17, (x, y))
             else:
-                self.assertEqual(triangles, [[tuple(p) for p in t] for t in self.triangles])
+                self.check_same(triangles, [[tuple(p) for p in t] for t in self.triangles], name)
             sets = {key: size for key, size in mesh["sets"].items() if not key.startswith("gmsh:")}
             self.assertEqual(sets, self.sizes, name)
         self.assertEqual(read["out.msh"]["names"], sorted(self.sizes))
@@ -237,7 +241,7 @@ class MeshFormats(ProgramTest):
             self.assertEqual((read[name]["triangles"], len(read[name]["nodes"])), (self.count, len(self.points)), name)
         self.assertEqual(read["out.unv"]["groups"], self.sizes)
         nodes = [tuple(map(float.fromhex, read["out.unv"]["nodes"][str(i + 1)])) for i in range(len(self.points))]
-        self.assertEqual(nodes, self.points)
+        self.check_same(nodes, self.points, "nodes")
 
     def test_assimp_opens_the_glb_in_metres_with_y_up(self):
         assimp = shutil.which("assimp")
@@ -267,10 +271,10 @@ class MeshFormats(ProgramTest):
         self.assertTrue(head.startswith(b"ply\nformat binary_little_endian 1.0\n"))
         self.assertIn(b"\ncomment face 3 Face3\n", head)
         n = len(self.points)
-        self.assertEqual(list(struct.iter_unpack("<3d", data[:24 * n])), self.points)
+        self.check_same(list(struct.iter_unpack("<3d", data[:24 * n])), self.points, "points")
         rows = list(struct.iter_unpack("<B4i", data[24 * n:]))
         expected = [(3, *t, int(name[4:])) for name, group in self.groups.items() for t in group]
-        self.assertEqual(rows, expected)
+        self.check_same(rows, expected, "triangles")
 
     def test_vtp_holds_doubles_face_numbers_and_names(self):
         self.write_all()
@@ -285,13 +289,13 @@ class MeshFormats(ProgramTest):
             kind = {"Float64": "d", "Int32": "i", "Int64": "q"}[array.get("type")]
             arrays[array.get("Name")] = [x for x, in struct.iter_unpack("<" + kind, raw)]
         self.assertEqual((piece.get("NumberOfPoints"), piece.get("NumberOfPolys")), (str(len(self.points)), str(self.count)))
-        self.assertEqual(arrays["points"], [x for p in self.points for x in p])
-        self.assertEqual(arrays["connectivity"], [i for group in self.groups.values() for t in group for i in t])
-        self.assertEqual(arrays["offsets"], [3 * (i + 1) for i in range(self.count)])
-        self.assertEqual(arrays["face"], [int(name[4:]) for name, group in self.groups.items() for _ in group])
+        self.check_same(arrays["points"], [x for p in self.points for x in p], "points")
+        self.check_same(arrays["connectivity"], [i for group in self.groups.values() for t in group for i in t], "corners")
+        self.check_same(arrays["offsets"], [3 * (i + 1) for i in range(self.count)], "offsets")
+        self.check_same(arrays["face"], [int(name[4:]) for name, group in self.groups.items() for _ in group], "faces")
         names = bytes(map(int, data.find("FieldData/Array").text.split())).decode().split("\0")[:-1]
         self.assertEqual(names, list(self.groups))
-        self.assertEqual([names[g] for g in arrays["group"]], [name for name, group in self.groups.items() for _ in group])
+        self.check_same([names[g] for g in arrays["group"]], [name for name, group in self.groups.items() for _ in group], "groups")
 
     def test_tessellated_step_holds_the_same_triangles_over_one_list_of_points(self):
         self.write_all("--step-form", "tessellated")
@@ -300,20 +304,46 @@ class MeshFormats(ProgramTest):
         for number, (keyword, _) in entities.items():
             kinds.setdefault(keyword, []).append(number)
         (points,) = (entities[n][1] for n in kinds["COORDINATES_LIST"])
-        self.assertEqual((points[1], [tuple(p) for p in points[2]]), (len(self.points), self.points))
+        self.check_same((points[1], [tuple(p) for p in points[2]]), (len(self.points), self.points), "points")
         groups = {}
         for number in kinds["TRIANGULATED_FACE"]:
             name, list_, largest, normals, link, index, triangles = entities[number][1]
             self.assertEqual((list_, link), (("#", kinds["COORDINATES_LIST"][0]), "$"))
             self.assertEqual((largest, len(normals)), (len(index), len(index)))
             groups[name] = [tuple(int(index[int(c) - 1]) - 1 for c in t) for t in triangles]
-        self.assertEqual(groups, self.groups)
+        self.check_same(groups, self.groups, "triangles")
         (solid,) = (entities[n][1] for n in kinds["TESSELLATED_SOLID"])
         self.assertEqual(solid[1], [("#", n) for n in kinds["TRIANGULATED_FACE"]])
         (shape,) = (entities[n][1] for n in kinds["TESSELLATED_SHAPE_REPRESENTATION"])
         self.assertIn(("#", kinds["TESSELLATED_SOLID"][0]), shape[1])
         (link,) = (entities[n][1] for n in kinds["SHAPE_DEFINITION_REPRESENTATION"])
         self.assertEqual(link[1], ("#", kinds["TESSELLATED_SHAPE_REPRESENTATION"][0]))
+
+    def test_faceted_step_shares_each_edge_between_two_faces_that_run_through_it_both_ways(self):
+        # Readers mend what is wrong here: the file itself is looked at.
+        self.write_all()
+        entities = step_entities((self.folder / "out.step").read_text())
+        place = {n: tuple(p[1]) for n, (keyword, p) in entities.items() if keyword == "CARTESIAN_POINT"}
+        uses, groups = set(), {}
+        for keyword, face in entities.values():
+            if keyword != "ADVANCED_FACE":
+                continue
+            ((_, bound),) = face[1]
+            corners, ends = [], []
+            for _, oriented in entities[entities[bound][1][1][1]][1][1]:
+                _, _, _, (_, edge), sense = entities[oriented][1]
+                self.assertNotIn((edge, sense), uses)
+                uses.add((edge, sense))
+                pair = [place[entities[end[1]][1][1][1]] for end in entities[edge][1][1:3]]
+                first, last = pair if sense == ".T." else pair[::-1]
+                corners.append(first)
+                ends.append(last)
+            self.assertEqual(ends, corners[1:] + corners[:1])
+            groups.setdefault(face[0], []).append(sorted(corners))
+        self.assertEqual(len(uses), 3 * self.count)
+        expected = {name: sorted(sorted(self.points[i] for i in t) for t in group) for name, group in self.groups.items()}
+        self.check_same({name: sorted(group) for name, group in groups.items()}, expected, "triangles")
+        self.assertEqual([keyword for keyword, _ in entities.values()].count("MANIFOLD_SOLID_BREP"), 1)
 
     def test_the_page_needs_nothing_from_outside_and_holds_every_triangle(self):
         self.write_all()
@@ -350,7 +380,7 @@ class MeshFormats(ProgramTest):
         first = {ending: (self.folder / f"out.{ending}").read_bytes() for ending in ENDINGS}
         self.write_all("--threads", 3)
         for ending in ENDINGS:
-            self.assertEqual((self.folder / f"out.{ending}").read_bytes(), first[ending], ending)
+            self.check_same((self.folder / f"out.{ending}").read_bytes(), first[ending], ending)
 
     def test_a_large_faceted_step_is_written_with_a_warning(self):
         done = self.run_program("mesh", sample("flat.step"), "--size", 0.0145, "-o", "out.step", "--report", "r.json")
