@@ -17,6 +17,8 @@ constexpr double kSmoothCosine = 0.9999;
 constexpr int kLooks = 9;
 // A mean of unit normals that is shorter says nothing.
 constexpr double kLeastMean = 1e-6;
+// A direction that is nearer to that of the border, in radians, runs along it.
+constexpr double kAlong = 1e-6;
 
 Uv parameters_at(const Coedge& c, double t) {
   const auto p = c.pcurve->position(t);
@@ -213,7 +215,8 @@ bool FaceBorder::sees(int i, const Xyz& x) const {
   if (next[i] < 0) return true;
   const MeshVertex& v = points[i];
   const Xyz ahead = points[next[i]].x - v.x;
-  return turn(v.n, ahead, x - v.x) < turn(v.n, ahead, points[before[i]].x - v.x);
+  const double at = turn(v.n, ahead, x - v.x), whole = turn(v.n, ahead, points[before[i]].x - v.x);
+  return at > kAlong && at < whole - kAlong;
 }
 
 FaceBorder face_border(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border) {

@@ -18,7 +18,22 @@ constexpr double kTooLong = 2.5;
 // Points that fronts have placed are nearly good; those of a scaffold are all replaced.
 constexpr int kRoundsOnFronts = 2, kRoundsOnScaffold = 3;
 // Each mesh tells the next one where sizes are smaller; after so many the last one is refined as it is.
-constexpr int kMostFillings = 4;
+constexpr int kMostFillings = 6;
+
+// Places, a side, at which a face is looked at for any area.
+constexpr int kLooks = 8;
+
+// A face may be one line or one point: a trailing edge without thickness.
+bool has_area(const SurfaceProbe& probe) {
+  for (int i = 0; i < kLooks; ++i) {
+    for (int k = 0; k < kLooks; ++k) {
+      const Uv p{probe.box().u.lo + (i + 0.5) / kLooks * probe.box().u.length(),
+                 probe.box().v.lo + (k + 0.5) / kLooks * probe.box().v.length()};
+      if (probe.at(p).regular) return true;
+    }
+  }
+  return false;
+}
 
 void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
   const HalfEdges& topo = mesh.topology();
@@ -45,10 +60,11 @@ std::optional<SurfaceTriangulation> fill(const CadFace& face, const SurfaceProbe
                                          const SizeRule& rule) {
   const FaceBorder rim = face_border(face, probe, border);
   if (!rim.why.empty()) return std::nullopt;
-  SizeField field(rule);
+  SizeField field(rule, rim.points);
   std::optional<SurfaceTriangulation> mesh;
-  for (int i = 0; i < kMostFillings; ++i) {
+  for (int i = 1; i <= kMostFillings; ++i) {
     std::vector<MeshVertex> points = fill_by_fronts(probe, rule, field, rim);
+    if (field.learn(points) && i < kMostFillings) continue;
     auto triangles = triangulate_by_stars(points, rim, rule.size);
     if (!triangles) return std::nullopt;
     mesh.emplace(std::move(*triangles), std::move(points), probe, rule);
@@ -83,6 +99,11 @@ FaceMesh finished(const SurfaceTriangulation& mesh) {
 
 FaceMesh mesh_face(const CadFace& face, const BorderPoints& border, const SizeRule& rule) {
   const SurfaceProbe probe(*face.surface, parameter_box(face));
+  if (!has_area(probe)) {
+    FaceMesh empty;
+    empty.why = "it has no area, all of it is one line or one point";
+    return empty;
+  }
   if (auto mesh = fill(face, probe, border, rule)) {
     refine(*mesh, kRoundsOnFronts);
     return finished(*mesh);

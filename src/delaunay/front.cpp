@@ -68,6 +68,7 @@ class Fronts {
 
  private:
   const MeshVertex& at(int i) const { return points_[i]; }
+  bool is_fixed(int i) const { return i < static_cast<int>(border_.points.size()); }
   PlaceOrder::Key key(const Edge& e) const { return order_.key(0.5 * (at(e.a).x + at(e.b).x)); }
   void begin_at_border() {
     for (size_t i = 0; i < border_.points.size(); ++i) {
@@ -85,6 +86,7 @@ class Fronts {
   void advance(const Edge& e);
   int nearest(const MeshVertex& v, double reach);
   bool faces(int w, const MeshVertex& v) const;
+  bool sees(int w, int v) const { return !is_fixed(w) || border_.sees(w, at(v).x); }
   bool meets_border(const Xyz& from, const MeshVertex& v, const Edge& e);
   void close(const Edge& e, int c, std::deque<Edge>& queue);
 
@@ -178,9 +180,8 @@ int Fronts::nearest(const MeshVertex& v, double reach) {
 
 // Another sheet of the face may be near in space, or the other side of the border.
 bool Fronts::faces(int w, const MeshVertex& v) const {
-  const bool is_fixed = w < static_cast<int>(border_.points.size());
-  if (is_fixed && border_.is_tip[w]) return true;
-  if (is_fixed && border_.is_one_of_many[w] && !border_.sees(w, v.x)) return false;
+  if (is_fixed(w) && border_.is_tip[w]) return true;
+  if (is_fixed(w) && border_.is_one_of_many[w] && !border_.sees(w, v.x)) return false;
   return at(w).n.dot(v.n) > 0.0;
 }
 
@@ -214,14 +215,16 @@ bool Fronts::meets_border(const Xyz& from, const MeshVertex& v, const Edge& e) {
   return meets;
 }
 
-// The triangle e.a, e.b, c is seen; what is behind its other sides comes next.
+// The triangle e.a, e.b, c is seen; what is behind its other sides comes next. A side between two points of the border
+// may cut a corner outside the face: nothing is behind it.
 void Fronts::close(const Edge& e, int c, std::deque<Edge>& queue) {
   used_.insert(e.b, c), used_.insert(c, e.a);
   const double h = 0.5 * (at(e.a).h + at(e.b).h);
   std::array<Edge, 2> sides = {Edge{e.a, c}, Edge{c, e.b}};
   if (key(sides[1]) < key(sides[0])) std::swap(sides[0], sides[1]);
   for (const Edge& side : sides) {
-    if ((at(side.a).x - at(side.b).x).norm() < kLongest * h && used_.insert(side.a, side.b)) queue.push_back(side);
+    const bool is_short = (at(side.a).x - at(side.b).x).norm() < kLongest * h;
+    if (is_short && sees(side.a, side.b) && sees(side.b, side.a) && used_.insert(side.a, side.b)) queue.push_back(side);
   }
 }
 

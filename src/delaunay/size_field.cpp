@@ -9,10 +9,18 @@ namespace {
 constexpr int kLeaf = 8;
 // A size this many times as large as it should be is noted …
 constexpr double kNoted = 1.02;
-// … and this many times as large it is worth another mesh.
+// … and this many times as large it is worth another filling.
 constexpr double kTooCoarse = 1.2;
 
 }  // namespace
+
+SizeField::SizeField(const SizeRule& rule, const std::vector<MeshVertex>& border)
+    : rule_(rule), border_points_(border.size()) {
+  for (const MeshVertex& p : border) {
+    if (p.h * kNoted < rule.size) sources_.push_back({p.x, p.h});
+  }
+  build();
+}
 
 double SizeField::at(const Xyz& x, double wanted) const {
   double h = wanted;
@@ -40,6 +48,11 @@ void SizeField::lower(size_t node, const Xyz& x, double& h) const {
   lower(left_first ? right : left, x, h);
 }
 
+void SizeField::build() {
+  tree_.clear();
+  if (!sources_.empty()) build(0, 0, static_cast<int>(sources_.size()));
+}
+
 void SizeField::build(size_t node, int begin, int end) {
   if (tree_.size() <= node) tree_.resize(node + 1);
   Node n;
@@ -60,35 +73,33 @@ void SizeField::build(size_t node, int begin, int end) {
   build(2 * node + 2, middle, end);
 }
 
+bool SizeField::learn(const std::vector<MeshVertex>& points) {
+  const size_t known = sources_.size();
+  for (size_t i = border_points_; i < points.size(); ++i) {
+    if (points[i].h * kNoted < rule_.size) sources_.push_back({points[i].x, points[i].h});
+  }
+  if (sources_.size() == known) return false;
+  build();
+  double worst = 1.0;
+  for (size_t i = border_points_; i < points.size(); ++i)
+    worst = std::max(worst, points[i].h / at(points[i].x, rule_.size));
+  return worst > kTooCoarse;
+}
+
 bool SizeField::learn(const SurfaceTriangulation& mesh) {
   const HalfEdges& topo = mesh.topology();
   double worst = 1.0;
-  const auto note = [&](const Xyz& x, double h, double excess) {
-    if (excess > kNoted) sources_.push_back({x, h});
-    worst = std::max(worst, excess);
-  };
-  for (int v = 0; v < topo.vertex_count(); ++v) {
-    if (topo.outgoing(v) == HalfEdges::kNone) continue;
-    const MeshVertex& from = mesh.vertex(v);
-    double excess = 1.0;
-    for (const int e : topo.star(v)) {
-      const MeshVertex& to = mesh.vertex(topo.target(e));
-      if (to.border >= 0) continue;  // it stands where it stands
-      excess = std::max(excess, to.h / (from.h + rule_.gradation * (to.x - from.x).norm()));
-    }
-    note(from.x, from.h, excess);
-  }
   for (int t = 0; t < topo.triangle_count(); ++t) {
     const auto middle = mesh.middle(t);
     if (!middle) continue;
     const auto [a, b, c] = topo.corners(t);
-    const double h = rule_.at(middle->curvature);
-    note(middle->x, h,
-         std::max({mesh.vertex(a).h, mesh.vertex(b).h, mesh.vertex(c).h}) /
-             (h + rule_.gradation * mesh.circumradius(t)));
+    const double h = rule_.at(middle->curvature),
+                 used = std::max({mesh.vertex(a).h, mesh.vertex(b).h, mesh.vertex(c).h});
+    const double excess = used / (h + rule_.gradation * mesh.circumradius(t));
+    if (excess > kNoted) sources_.push_back({middle->x, h});
+    worst = std::max(worst, excess);
   }
-  tree_.clear();
-  if (!sources_.empty()) build(0, 0, static_cast<int>(sources_.size()));
+  build();
   return worst > kTooCoarse;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 #include "delaunay/close_gaps.h"
@@ -12,13 +13,14 @@
 namespace geovor {
 namespace {
 
-// Neighbours are looked for this many sizes away: the circles of a mesh without holes have radii below 0.9 sizes.
-constexpr double kReach = 2.6;
+// Neighbours are looked for so many sizes away. Where sizes differ a circle may reach farther: then again, so many
+// times as far, up to the last.
+constexpr double kReach = 2.2, kFarther = 1.8, kFarthest = 30.0;
 // A neighbour's normal turns by less than about 78 degrees.
 constexpr double kLeastCosine = 0.2;
 // Triangles thinner than this are none.
 constexpr double kThin = 1e-9;
-// Circles whose centres agree this well, in parts of the edge, are one.
+// Circles whose centres agree this well, in parts of the side that they share, are one.
 constexpr double kOneCircle = 1e-7;
 
 using Flat = Eigen::Vector2d;
@@ -86,11 +88,10 @@ class Stars {
   }
 
   // Seen from the point, in the direction of the chord, as far away as along the surface.
-  void find_neighbours(int i) {
+  void find_neighbours(int i, double reach) {
     const MeshVertex& a = points_[i];
     const Xyz e1 = a.n.unitOrthogonal(), e2 = a.n.cross(e1);
     near_.clear();
-    const double reach = kReach * a.h;
     grid_.each_near(a.x, reach, [&](int j) {
       const MeshVertex& b = points_[j];
       const Xyz chord = b.x - a.x;
@@ -146,20 +147,34 @@ class Stars {
 
   // Gift wrapping: from neighbour to neighbour counter-clockwise, each time to the one whose circle lies lowest.
   void find_star(int i) {
-    find_neighbours(i);
-    const Neighbour* const first = first_neighbour(i);
-    const int last = is_border(i) ? border_.before[i] : -1;
-    const Neighbour* now = first;
-    for (size_t guard = 0; now && guard < near_.size(); ++guard) {
-      const Neighbour* next = next_neighbour(i, *now);
-      if (!next) return;
-      link_.push_back({now->v, next->v});
-      if (next == first || next->v == last) return;
-      now = next;
+    const size_t begin = link_.size();
+    for (double reach = kReach; reach < kFarthest; reach *= kFarther) {
+      link_.resize(begin);
+      if (wrap(i, reach * points_[i].h)) return;
     }
   }
 
-  const Neighbour* next_neighbour(int i, const Neighbour& now) {
+  // Whether the star is the same however many more neighbours are looked at: all its circles lie within `reach`.
+  bool wrap(int i, double reach) {
+    find_neighbours(i, reach);
+    const Neighbour* const first = first_neighbour(i);
+    const int last = is_border(i) ? border_.before[i] : -1;
+    const Neighbour* now = first;
+    bool lies_within = true;
+    for (size_t guard = 0; now && guard < near_.size(); ++guard) {
+      double radius = 0.0;
+      const Neighbour* next = next_neighbour(i, *now, radius);
+      if (!next) return false;
+      link_.push_back({now->v, next->v});
+      lies_within = lies_within && 2.0 * radius < reach;
+      if (next == first || next->v == last) return lies_within;
+      now = next;
+    }
+    return false;
+  }
+
+  // The circle through the point, `now` and n has its centre at now / 2 + height * (now turned by 90 degrees).
+  const Neighbour* next_neighbour(int i, const Neighbour& now, double& radius) {
     const double c = now.y.norm();
     const auto height = [&](const Neighbour& n, double s) { return (n.y.squaredNorm() - n.y.dot(now.y)) / (2.0 * s); };
     const Neighbour* best = nullptr;
@@ -172,10 +187,11 @@ class Stars {
       best = &n, least = h;
     }
     if (!best) return nullptr;
+    radius = c * std::hypot(0.5, least);
     circle_.clear();
     for (const Neighbour& n : near_) {
       const double s = cross(now.y, n.y);
-      if (s > kThin * c * c && height(n, s) < least + kOneCircle * c) circle_.push_back(&n);
+      if (s > kThin * c * c && height(n, s) <= least + kOneCircle * (1.0 + std::abs(least))) circle_.push_back(&n);
     }
     return circle_.size() == 1 ? best : of_one_circle(i, now);
   }
