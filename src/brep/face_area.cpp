@@ -41,9 +41,6 @@ const GaussRule& coarse_rule() {
   return rule;
 }
 
-/// Sum of the panels' differences, relative to the area, at which the refinement ends. The differences are those of the
-/// coarse rule: the value itself is mostly better by orders of magnitude.
-constexpr double kTarget = 1e-9;
 /// Surface evaluations after which nothing is refined any more: some tenths of a second. A face that would need more
 /// says so in its error.
 constexpr long kBudget = 1'500'000;
@@ -249,14 +246,15 @@ Area sum_of(const std::vector<Panel>& panels) {
   return area;
 }
 
-/// Bisects the panels that differ most until their differences add up to the target, or the budget is spent.
-void refine(GreenIntegral& integral, std::vector<Panel>& panels) {
+/// Bisects the panels that differ most until their differences add up to this part of the area, or the budget is spent.
+/// The differences are those of the coarse rule: the value itself is mostly better by orders of magnitude.
+void refine(GreenIntegral& integral, std::vector<Panel>& panels, double relative) {
   const auto size = [](const UvBox& box) { return box.u.length() * box.v.length(); };
-  integral.refine_inside(kInnerShare * kTarget * std::abs(sum_of(panels).value) / size(integral.box()));
+  integral.refine_inside(kInnerShare * relative * std::abs(sum_of(panels).value) / size(integral.box()));
   for (bool refined = true; refined;) {
     refined = false;
     const Area area = sum_of(panels);
-    const double target = kTarget * std::abs(area.value);
+    const double target = relative * std::abs(area.value);
     if (!(area.error > target)) return;
     const double share = target / static_cast<double>(panels.size());
     const std::size_t count = panels.size();
@@ -276,13 +274,13 @@ void refine(GreenIntegral& integral, std::vector<Panel>& panels) {
 
 }  // namespace
 
-Area face_area(const CadModel&, const CadFace& face) {
+Area face_area(const CadModel&, const CadFace& face, double relative) {
   const std::vector<Coedge> coedges = closed_chains(loops_or_whole_domain(face));
   GreenIntegral integral(*face.surface, sampled_bounds(coedges));
   std::vector<Panel> panels;
   for (const Coedge& coedge : coedges) integral.cut(coedge, panels);
   for (Panel& panel : panels) integral.evaluate(panel);
-  refine(integral, panels);
+  refine(integral, panels, relative);
   const Area area = sum_of(panels);
   if (!std::isfinite(area.value)) {
     throw Error(ErrorCode::FaceRejected, "the surface has a point inside the face that is not a number; repair it");

@@ -216,7 +216,9 @@ void mesh_one(const CadModel& model, const CadFace& face, const BorderPoints& bo
   const auto start = Clock::now();
   if (face.surface) {
     part = mesh_face(face, border, rule);
-    report.face_area = face_area(model, face).value;
+    // The mesh's own area is off by (size / radius)^2 at least: more digits would tell nothing.
+    constexpr double kRelative = 1e-6;
+    report.face_area = face_area(model, face, kRelative).value;
   } else {
     part.why = face.problems.empty() ? "it has no surface that can be used" : face.problems.front();
   }
