@@ -40,18 +40,14 @@ double share_of_segments(double count, double s, double h0, double h1) {
   return std::clamp(std::abs(growth) > kEven ? std::expm1(x * growth) / growth : x, 0.0, 1.0);
 }
 
-// The sizes of the stations, graded over the net of edges.
-struct Sizes {
-  std::vector<std::vector<double>> h;  // of the edges' stations
-  std::vector<double> vertex;
-};
+using StationSizes = std::vector<std::vector<double>>;  // of the edges
 
 // h(x) <= h(y) + gradation * (distance along the edges): Dijkstra's algorithm with the stations as nodes.
 class Grading {
  public:
   Grading(const CadModel& model, const std::vector<std::optional<EdgeStations>>& stations, double gradation)
       : model_(model), stations_(stations), gradation_(gradation) {}
-  void run(Sizes& sizes);
+  void run(StationSizes& sizes, std::vector<double>& vertex);
 
  private:
   struct Node {
@@ -65,8 +61,8 @@ class Grading {
     h = bound;
     queue_.push({h, edge, index});
   }
-  void from_vertex(const Node& node, Sizes& sizes);
-  void from_station(const Node& node, Sizes& sizes);
+  void from_vertex(const Node& node, StationSizes& sizes);
+  void from_station(const Node& node, StationSizes& sizes, std::vector<double>& vertex);
 
   const CadModel& model_;
   const std::vector<std::optional<EdgeStations>>& stations_;
@@ -75,42 +71,42 @@ class Grading {
   std::vector<std::vector<std::pair<int, bool>>> at_vertex_;  // edges, and whether they start there
 };
 
-void Grading::run(Sizes& sizes) {
+void Grading::run(StationSizes& sizes, std::vector<double>& vertex) {
   at_vertex_.resize(model_.vertices.size());
   for (std::size_t e = 0; e < stations_.size(); ++e) {
     if (!stations_[e]) continue;
     const int edge = static_cast<int>(e);
-    for (std::size_t i = 0; i < sizes.h[e].size(); ++i) queue_.push({sizes.h[e][i], edge, static_cast<int>(i)});
+    for (std::size_t i = 0; i < sizes[e].size(); ++i) queue_.push({sizes[e][i], edge, static_cast<int>(i)});
     if (model_.edges[e].first_vertex >= 0) at_vertex_[model_.edges[e].first_vertex].push_back({edge, true});
     if (model_.edges[e].last_vertex >= 0) at_vertex_[model_.edges[e].last_vertex].push_back({edge, false});
   }
   while (!queue_.empty()) {
     const Node node = queue_.top();
     queue_.pop();
-    const double h = node.edge < 0 ? sizes.vertex[node.index] : sizes.h[node.edge][node.index];
+    const double h = node.edge < 0 ? vertex[node.index] : sizes[node.edge][node.index];
     if (node.h > h) continue;
-    node.edge < 0 ? from_vertex(node, sizes) : from_station(node, sizes);
+    node.edge < 0 ? from_vertex(node, sizes) : from_station(node, sizes, vertex);
   }
 }
 
-void Grading::from_vertex(const Node& node, Sizes& sizes) {
+void Grading::from_vertex(const Node& node, StationSizes& sizes) {
   for (const auto& [e, first] : at_vertex_[node.index]) {
-    const int i = first ? 0 : static_cast<int>(sizes.h[e].size()) - 1;
-    lower(sizes.h[e][i], node.h, e, i);
+    const int i = first ? 0 : static_cast<int>(sizes[e].size()) - 1;
+    lower(sizes[e][i], node.h, e, i);
   }
 }
 
-void Grading::from_station(const Node& node, Sizes& sizes) {
+void Grading::from_station(const Node& node, StationSizes& sizes, std::vector<double>& vertex) {
   const std::vector<double>& s = stations_[node.edge]->s;
-  std::vector<double>& h = sizes.h[node.edge];
+  std::vector<double>& h = sizes[node.edge];
   const int last = static_cast<int>(h.size()) - 1;
   for (int i : {node.index - 1, node.index + 1}) {
     if (i < 0 || i > last) continue;
     lower(h[i], node.h + gradation_ * std::abs(s[i] - s[node.index]), node.edge, i);
   }
   const CadEdge& e = model_.edges[node.edge];
-  if (node.index == 0 && e.first_vertex >= 0) lower(sizes.vertex[e.first_vertex], node.h, -1, e.first_vertex);
-  if (node.index == last && e.last_vertex >= 0) lower(sizes.vertex[e.last_vertex], node.h, -1, e.last_vertex);
+  if (node.index == 0 && e.first_vertex >= 0) lower(vertex[e.first_vertex], node.h, -1, e.first_vertex);
+  if (node.index == last && e.last_vertex >= 0) lower(vertex[e.last_vertex], node.h, -1, e.last_vertex);
 }
 
 // The places on one edge, ends included.
@@ -133,25 +129,59 @@ Xyz position(const CadEdge& edge, const std::vector<EdgeUse>& uses, double t) {
   return below.converged && below.distance <= (on_surface - on_curve).norm() ? below.foot : on_surface;
 }
 
+// The size at the way s, linear between the stations.
+double size_at(const EdgeStations& st, const std::vector<double>& h, double s) {
+  const auto after = std::upper_bound(st.s.begin(), st.s.end() - 1, s);
+  if (after == st.s.begin()) return h.front();
+  const std::size_t i = static_cast<std::size_t>(after - st.s.begin());
+  return h[i - 1] + (s - st.s[i - 1]) / (st.s[i] - st.s[i - 1]) * (h[i] - h[i - 1]);
+}
+
+// The piece of an edge between its caps.
+struct Between {
+  std::vector<double> s, h;
+};
+
+Between between_caps(const EdgeStations& st, const std::vector<double>& h, NarrowSizes::Caps caps) {
+  if (!(caps.first > 0.0 || caps.last > 0.0)) return {st.s, h};
+  const double lo = caps.first, hi = st.way.length() - caps.last;
+  Between piece{{lo}, {size_at(st, h, lo)}};
+  for (std::size_t i = 0; i < st.s.size(); ++i) {
+    if (!(st.s[i] > lo && st.s[i] < hi)) continue;
+    piece.s.push_back(st.s[i]);
+    piece.h.push_back(h[i]);
+  }
+  piece.s.push_back(hi);
+  piece.h.push_back(size_at(st, h, hi));
+  return piece;
+}
+
 Places place(const CadEdge& edge, const std::vector<EdgeUse>& uses, const EdgeStations& st,
-             const std::vector<double>& h) {
-  std::vector<double> work(st.s.size(), 0.0);  // the integral of ds / h
-  for (std::size_t i = 1; i < st.s.size(); ++i) {
-    work[i] = work[i - 1] + segments_between(st.s[i] - st.s[i - 1], h[i - 1], h[i]);
+             const std::vector<double>& h, NarrowSizes::Caps caps) {
+  const Between piece = between_caps(st, h, caps);
+  std::vector<double> work(piece.s.size(), 0.0);  // the integral of ds / h
+  for (std::size_t i = 1; i < piece.s.size(); ++i) {
+    work[i] = work[i - 1] + segments_between(piece.s[i] - piece.s[i - 1], piece.h[i - 1], piece.h[i]);
   }
   const bool closed = edge.first_vertex == edge.last_vertex;
   const int least = std::max(closed ? 3 : 1, static_cast<int>(std::ceil(st.turn / kLargestTurn - kRoundingOfTurn)));
   const int n = std::max(least, static_cast<int>(std::lround((1.0 - kRounding) * work.back())));
   Places places{{edge.range.lo}, {h.front()}, {position(edge, uses, edge.range.lo)}};
+  const auto add = [&](double s, double size) {
+    places.t.push_back(st.way.parameter(s));
+    places.h.push_back(size);
+    places.x.push_back(position(edge, uses, places.t.back()));
+  };
+  if (caps.first > 0.0) add(piece.s.front(), piece.h.front());
   std::size_t i = 1;
   for (int k = 1; k < n; ++k) {
     const double target = work.back() * k / n;
     while (i + 1 < work.size() && work[i] < target) ++i;
-    const double part = share_of_segments(target - work[i - 1], st.s[i] - st.s[i - 1], h[i - 1], h[i]);
-    places.t.push_back(st.way.parameter(st.s[i - 1] + part * (st.s[i] - st.s[i - 1])));
-    places.h.push_back(h[i - 1] + part * (h[i] - h[i - 1]));
-    places.x.push_back(position(edge, uses, places.t.back()));
+    const double step = piece.s[i] - piece.s[i - 1];
+    const double part = share_of_segments(target - work[i - 1], step, piece.h[i - 1], piece.h[i]);
+    add(piece.s[i - 1] + part * step, piece.h[i - 1] + part * (piece.h[i] - piece.h[i - 1]));
   }
+  if (caps.last > 0.0) add(piece.s.back(), piece.h.back());
   places.t.push_back(edge.range.hi);
   places.h.push_back(h.back());
   places.x.push_back(position(edge, uses, edge.range.hi));
@@ -219,6 +249,11 @@ double shortest(const std::vector<EdgeUse>& uses) {
 
 }  // namespace
 
+struct BorderSampler::Sizes {
+  StationSizes h;
+  std::vector<double> vertex;
+};
+
 BorderSampler::BorderSampler(const CadModel& model, std::vector<SizeRule> rules, const ForEach& for_each)
     : model_(model),
       rules_(std::move(rules)),
@@ -239,11 +274,21 @@ BorderSampler::BorderSampler(const CadModel& model, std::vector<SizeRule> rules,
   for_each_(static_cast<int>(model.edges.size()), [&](int e) {
     if (!model.edges[e].degenerate() && !uses_[e].empty()) stations_[e].emplace(look_along(model.edges[e], uses_[e]));
   });
+  look_across();
 }
 
-BorderPoints BorderSampler::sample(const std::vector<double>& finer) const {
+void BorderSampler::look_across() {
+  const Sizes sizes = graded_sizes(std::vector<double>(model_.edges.size(), 1.0));
+  std::vector<NarrowFace> narrow(model_.faces.size());
+  for_each_(static_cast<int>(model_.faces.size()), [&](int f) {
+    if (probes_[f]) narrow[f] = narrow_places(model_, f, *probes_[f], rules_[f], uses_, stations_, sizes.h);
+  });
+  narrow_ = NarrowSizes(model_, narrow, uses_, stations_);
+}
+
+BorderSampler::Sizes BorderSampler::graded_sizes(const std::vector<double>& finer) const {
   const int edges = static_cast<int>(model_.edges.size());
-  Sizes sizes{std::vector<std::vector<double>>(edges),
+  Sizes sizes{StationSizes(edges),
               std::vector<double>(model_.vertices.size(), std::numeric_limits<double>::infinity())};
   for (int e = 0; e < edges; ++e) {
     if (model_.edges[e].degenerate() && model_.edges[e].first_vertex >= 0) {
@@ -255,10 +300,20 @@ BorderPoints BorderSampler::sample(const std::vector<double>& finer) const {
     const double most = std::max(stations_[e]->way.length(), shortest(uses_[e]));
     for (double h : stations_[e]->h) sizes.h[e].push_back(std::min(h / finer[e], most));
   }
-  if (!rules_.empty()) Grading(model_, stations_, rules_.front().gradation).run(sizes);
+  if (!rules_.empty()) Grading(model_, stations_, rules_.front().gradation).run(sizes.h, sizes.vertex);
+  return sizes;
+}
+
+BorderPoints BorderSampler::sample(const std::vector<double>& finer) const {
+  const int edges = static_cast<int>(model_.edges.size());
+  Sizes sizes = graded_sizes(finer);
+  const std::vector<NarrowSizes::Caps> caps = narrow_.lower_in_corners(stations_, sizes.vertex, sizes.h);
+  if (!narrow_.corners().empty()) {
+    Grading(model_, stations_, rules_.front().gradation).run(sizes.h, sizes.vertex);
+  }
   std::vector<Places> places(edges);
   for_each_(edges, [&](int e) {
-    if (stations_[e]) places[e] = place(model_.edges[e], uses_[e], *stations_[e], sizes.h[e]);
+    if (stations_[e]) places[e] = place(model_.edges[e], uses_[e], *stations_[e], sizes.h[e], caps[e]);
   });
   Numbering numbering(model_, sizes.vertex);
   for (int e = 0; e < edges; ++e) {

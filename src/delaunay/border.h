@@ -7,6 +7,7 @@
 
 #include "brep/model.h"
 #include "delaunay/edge_stations.h"
+#include "delaunay/narrow_sizes.h"
 #include "delaunay/size_rule.h"
 #include "delaunay/surface_probe.h"
 
@@ -27,8 +28,8 @@ struct BorderPoints {
 
 /// Places points on every edge at equal steps of the integral of ds / h(s), with h the smallest of the sizes that the
 /// rules of the faces at the edge give for the larger of the curvatures of edge and face, graded over the whole net of
-/// edges. Where one face alone uses an edge the points lie on its surface, elsewhere on the edge's space curve. An edge
-/// that no face uses gets none.
+/// edges; where a face is narrow or has a sharp corner h follows its width (NarrowSizes). Where one face alone uses an
+/// edge the points lie on its surface, elsewhere on the edge's space curve. An edge that no face uses gets none.
 class BorderSampler {
  public:
   /// Runs body(0) … body(n-1) in any order, perhaps at once; the points do not depend on it.
@@ -43,13 +44,21 @@ class BorderSampler {
   /// `finer[e]` >= 1 divides h on edge e.
   BorderPoints sample(const std::vector<double>& finer) const;
 
+  /// The corners of faces that are sharper than 41 degrees.
+  const std::vector<FaceCorner>& sharp_corners() const { return narrow_.corners(); }
+
  private:
+  struct Sizes;
+  Sizes graded_sizes(const std::vector<double>& finer) const;
+  void look_across();
+
   const CadModel& model_;
   std::vector<SizeRule> rules_;
   ForEach for_each_;
   std::vector<std::optional<SurfaceProbe>> probes_;  // of the faces
   std::vector<std::vector<EdgeUse>> uses_;           // of the edges
   std::vector<std::optional<EdgeStations>> stations_;
+  NarrowSizes narrow_;
 };
 
 /// With one rule for all faces.

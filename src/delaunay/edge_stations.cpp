@@ -39,16 +39,10 @@ double curve_curvature(const CurveJet<3>& j) {
   return std::isfinite(k) ? k : 0.0;
 }
 
-// h <= size, lowered to the next step; values that agree with the size to rounding are the size.
-double in_steps(double h, double size) {
-  const double steps = std::ceil(kStepsPerOctave * std::log2(size / h) - kShiftOfSteps);
-  return steps > 0.0 ? size * std::exp2(-steps / kStepsPerOctave) : size;
-}
-
 class Looker {
  public:
   Looker(const CadEdge& edge, const std::vector<EdgeUse>& uses)
-      : edge_(edge), uses_(uses), stations_{ArcLength(*edge.curve, edge.range), {}, {}, 0.0} {
+      : edge_(edge), uses_(uses), stations_{ArcLength(*edge.curve, edge.range), {}, {}, {}, 0.0} {
     for (const EdgeUse& use : uses) size_ = std::min(size_, use.rule->size);
   }
   EdgeStations run();
@@ -64,6 +58,7 @@ class Looker {
   void add(double s, double h) {
     stations_.s.push_back(s);
     stations_.h.push_back(h);
+    stations_.x.push_back(edge_.curve->position(stations_.way.parameter(s)));
   }
 
   const CadEdge& edge_;
@@ -144,6 +139,11 @@ EdgeStations Looker::run() {
 }
 
 }  // namespace
+
+double in_steps(double h, double size) {
+  const double steps = std::ceil(kStepsPerOctave * std::log2(size / h) - kShiftOfSteps);
+  return steps > 0.0 ? size * std::exp2(-steps / kStepsPerOctave) : size;
+}
 
 EdgeStations look_along(const CadEdge& edge, const std::vector<EdgeUse>& uses) { return Looker(edge, uses).run(); }
 
