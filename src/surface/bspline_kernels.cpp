@@ -24,7 +24,7 @@ GEOVOR_INLINE void evaluate(const SpanBasis& basis, int flat_index, double x, Ro
   a[0] = b[0] = all(1.0);
   a[1] = all((span.hi - x) * span.per_length);
   b[1] = all((x - span.lo) * span.per_length);
-#pragma GCC unroll 8
+#pragma GCC unroll 16
   for (int k = 2; k <= p; ++k) {
     a[k] = a[k - 1] * a[1];
     b[k] = b[k - 1] * b[1];
@@ -35,12 +35,12 @@ GEOVOR_INLINE void evaluate(const SpanBasis& basis, int flat_index, double x, Ro
   for (int order = 0; order < Orders; ++order) {
     const int n = p - order;
     Lanes bernstein[most(Degree) + 1];
-#pragma GCC unroll 8
+#pragma GCC unroll 16
     for (int k = 0; k <= n; ++k) bernstein[k] = a[n - k] * b[k];
 #pragma GCC unroll 2
     for (int q = 0; q < blocks; ++q) {
       Lanes sum{};
-#pragma GCC unroll 8
+#pragma GCC unroll 16
       for (int k = 0; k <= n; ++k) sum += bernstein[k] * load(m[k * blocks + q]);
       store(sum, rows.quads[order][q]);
     }
@@ -85,7 +85,7 @@ GEOVOR_INLINE void jet(const BSplineNet& net, int u_span, int v_span, double u, 
   for (int b = 0; b <= q; ++b, ++column) {
     Lanes r{}, ru{}, ruu{};
     const Quad* pole = column;
-#pragma GCC unroll 8
+#pragma GCC unroll 16
     for (int a = 0; a <= p; ++a, pole += net.row_length) {
       const Lanes P_ab = load(*pole);
       r += all(Nu[0][a]) * P_ab;
@@ -122,7 +122,7 @@ GEOVOR_INLINE void position(const BSplineNet& net, int u_span, int v_span, doubl
   for (int b = 0; b <= q; ++b, ++column) {
     Lanes r{};
     const Quad* pole = column;
-#pragma GCC unroll 8
+#pragma GCC unroll 16
     for (int a = 0; a <= p; ++a, pole += net.row_length) r += all(Nu[0][a]) * load(*pole);
     A += all(Nv[0][b]) * r;
   }
@@ -175,6 +175,7 @@ BSplineKernels choose(int p, int q) {
   offer.template operator()<4, 4>();
   offer.template operator()<6, 6>();
   offer.template operator()<7, 7>();
+  offer.template operator()<9, 9>();
   return chosen;
 }
 

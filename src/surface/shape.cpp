@@ -130,8 +130,7 @@ std::optional<Shape> ShapeField::at(Uv p, const SurfaceJet& j) const {
 }
 
 // The shape at a place from which the field is continued to `stop`: there the other parameter's lines may stop, too.
-Shape ShapeField::inner(const Stop& stop, Uv q, const Span& span) const {
-  const SurfaceJet j = surface_.jet(q, span);
+Shape ShapeField::inner(const Stop& stop, Uv q, const SurfaceJet& j) const {
   if (stop.k == 0)
     if (const Stop* other = near_stop(1, q, j)) return continued(*other, q, 1.0).shape;
   return shape(j);
@@ -175,8 +174,9 @@ ShapeField::Continued ShapeField::continued(const Stop& stop, Uv p, const Span& 
     const double share = 0.5 * (1.0 - std::cos((2 * i + 1) * std::numbers::pi / (2 * kNodes)));
     Uv q = end;
     part(q, stop.k) += stop.inwards * depth * std::pow(share, 1.0 / power);
-    distance[i] = (surface_.jet(q, span).S - x).norm();
-    shapes[i] = inner(stop, q, span);
+    const SurfaceJet j = surface_.jet(q, span);
+    distance[i] = (j.S - x).norm();
+    shapes[i] = inner(stop, q, j);
   }
   const double here = (surface_.jet(p, span).S - x).norm();
   Continued c{interpolate(distance, shapes, here, 0), 0.0};

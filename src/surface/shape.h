@@ -53,7 +53,7 @@ class ShapeField {
   const Stop* near_stop(int k, Uv p, const SurfaceJet& j) const;
   Continued continued(const Stop& side, Uv p, double noise) const;
   Continued continued(const Stop& side, Uv p, const Span& span, double depth, double power) const;
-  Shape inner(const Stop& side, Uv q, const Span& span) const;
+  Shape inner(const Stop& side, Uv q, const SurfaceJet& j) const;
   bool spanning(const SurfaceJet& j) const;
 
   const Surface& surface_;
