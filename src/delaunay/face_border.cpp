@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "surface/pole_chart.h"
+#include "surface/project.h"
 
 namespace geovor {
 namespace {
@@ -17,12 +18,38 @@ constexpr double kSmoothCosine = 0.9999;
 constexpr int kLooks = 9;
 // A mean of unit normals that is shorter says nothing.
 constexpr double kLeastMean = 1e-6;
+// A nose turns the normal by more than this angle over the size; it is left by so many steps of this part of the size.
+constexpr double kNose = 0.6, kStepInside = 0.15;
+constexpr int kStepsInside = 3;
+// Places that are nearer, in parts of the coordinates, are one; the first step across a strip, in parts of the way to
+// the middle of the box; halvings that find its end.
+constexpr double kOnePlace = 1e-12, kStripStep = 1e-3;
+constexpr int kHalvings = 40;
 // A direction that is nearer to that of the border, in radians, runs along it.
 constexpr double kAlong = 1e-6;
 
 Uv parameters_at(const Coedge& c, double t) {
   const auto p = c.pcurve->position(t);
   return {p.x(), p.y()};
+}
+
+// A strip of the parameters beside p may be one line of space, such as a trailing edge without thickness: where the
+// surface begins behind it, straight across the strip; p itself where there is none.
+Uv across_strip(const SurfaceProbe& probe, Uv p) {
+  if (probe.at(p).regular) return p;
+  const Xyz x = probe.position(p);
+  const double near = kOnePlace * (1.0 + x.norm());
+  for (const UvVec way : {UvVec{0.0, probe.box().v.middle() - p.v}, UvVec{probe.box().u.middle() - p.u, 0.0}}) {
+    double flat = 0.0, beyond = kStripStep;
+    while (beyond < 1.0 && (probe.position(p + beyond * way) - x).norm() < near) flat = beyond, beyond *= 2.0;
+    if (flat == 0.0) continue;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (flat + beyond);
+      ((probe.position(p + middle * way) - x).norm() < near ? flat : beyond) = middle;
+    }
+    if (probe.at(p + beyond * way).regular) return p + beyond * way;
+  }
+  return p;
 }
 
 // The points of one use of an edge, in the direction of the loop.
@@ -54,6 +81,7 @@ class Collector {
     }
     if (link_runs()) {
       place_points();
+      look_past_noses();
       add_tips();
     } else {
       result_.why = "its border is open";
@@ -130,8 +158,7 @@ class Collector {
   void place_points() {
     for (Run& run : runs_) {
       run.first = static_cast<int>(result_.points.size());
-      for (size_t i = 0; i + 1 < run.points.size(); ++i)
-        add_point(run.points[i], run.uv[i], probe_.at(run.uv[i]).n, false);
+      for (size_t i = 0; i + 1 < run.points.size(); ++i) add_point(run.points[i], across_strip(probe_, run.uv[i]));
     }
     for (const Run& run : runs_) {
       const int last = run.first + static_cast<int>(run.points.size()) - 2;
@@ -141,6 +168,29 @@ class Collector {
         result_.before[w] = v;
       }
     }
+  }
+
+  // Where the border runs along a nose that is much sharper than the mesh is fine, such as a leading edge, the normal
+  // there is not that of the triangles beside it: it is taken a few short steps inside.
+  void look_past_noses() {
+    std::vector<Xyz> normals;
+    for (size_t i = 0; i < result_.points.size(); ++i) {
+      const MeshVertex& v = result_.points[i];
+      SurfaceSample s = probe_.at(v.uv[0]);
+      if (s.curvature * v.h > kNose) {
+        const Xyz along = (result_.points[result_.next[i]].x - result_.points[result_.before[i]].x).normalized();
+        Uv uv = v.uv[0];
+        for (int k = 0; k < kStepsInside; ++k) {
+          const Projection foot =
+              project_near(probe_.surface(), s.x + kStepInside * v.h * s.n.cross(along), uv, probe_.box());
+          if (!foot.converged) break;
+          uv = foot.uv;
+          s = probe_.at(uv);
+        }
+      }
+      normals.push_back(s.n);
+    }
+    for (size_t i = 0; i < result_.points.size(); ++i) result_.points[i].n = normals[i];
   }
 
   // A tip on the border takes its mean normal; one in the middle of the face stands alone.
@@ -155,23 +205,25 @@ class Collector {
         if (says_something) result_.points[i].n = tip.normals.normalized();
       }
       if (is_on_border) continue;
-      add_point(point, tip.uv, tip.normals.normalized(), true);
+      add_point(point, tip.uv);
+      result_.is_tip.back() = 1;
+      result_.points.back().n = tip.normals.normalized();
       result_.points.back().free_u = tip.free_u;
       result_.points.back().free_v = tip.free_v;
     }
   }
 
-  void add_point(int point, Uv uv, const Xyz& n, bool is_tip) {
+  void add_point(int point, Uv uv) {
     MeshVertex v;
     v.x = border_.points[point];
-    v.n = n;
+    v.n = probe_.at(uv).n;
     v.h = border_.size[point];
     v.border = point;
     v.uv = {uv};
     result_.points.push_back(v);
     result_.next.push_back(-1);
     result_.before.push_back(-1);
-    result_.is_tip.push_back(is_tip ? 1 : 0);
+    result_.is_tip.push_back(0);
   }
 
   void check() {

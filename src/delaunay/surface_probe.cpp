@@ -9,7 +9,7 @@ namespace geovor {
 namespace {
 
 // The first step, in parts of the way to the middle of the box, by which a singular point is left.
-constexpr double kFirstStep = 1e-6;
+constexpr double kFirstStep = 1e-6, kLonger = 2.0;
 // A border curve may bulge beyond the points at which it was looked at, by this share of the box.
 constexpr double kBulge = 0.05;
 constexpr int kLooks = 16;
@@ -46,7 +46,7 @@ SurfaceSample SurfaceProbe::at(Uv p) const {
   std::optional<Shape> shape = shapes_.at(p, j);
   s.regular = shape.has_value();
   // Ever larger steps towards the middle, until the derivatives come back.
-  for (double step = kFirstStep; !shape && step < 0.5; step *= 10.0) {
+  for (double step = kFirstStep; !shape && step < 1.0; step *= kLonger) {
     const Uv q = lerp(p, {box_.u.middle(), box_.v.middle()}, step);
     shape = shapes_.at(q, surface_.jet(q));
   }
