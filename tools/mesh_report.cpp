@@ -60,11 +60,19 @@ Json face_json(const CadModel& model, const FaceReport& face) {
           {"triangles", face.triangles},
           {"inverted", face.inverted},
           {"smallest_angle", face.smallest_angle},
+          {"below_30_degrees", face.below_30.all},
+          {"below_30_degrees_away_from_sharp_corners", face.below_30.away_from_corners},
           {"largest_distance", face.largest_distance},
           {"mesh_area", face.mesh_area},
           {"face_area", face.face_area},
           {"estimated_lengths", face.estimated_lengths},
           {"seconds", face.seconds}};
+}
+
+Json corner_json(const SharpCorner& corner) {
+  return {{"face", corner.face},
+          {"place", {corner.place.x(), corner.place.y(), corner.place.z()}},
+          {"angle", corner.angle}};
 }
 
 Json topology_json(const MeshTopology& t) {
@@ -103,6 +111,7 @@ MeshSummary summarize(const CadModel& model, const MeshArguments& arguments, con
     if (face.triangles == 0) continue;
     summary.mesh_area += face.mesh_area;
     summary.face_area += face.face_area;
+    summary.small_away_from_corners += face.below_30.away_from_corners;
     summary.largest_distance = std::max(summary.largest_distance, face.largest_distance);
   }
   return summary;
@@ -124,6 +133,8 @@ std::string summary_text(const MeshSummary& s) {
   line("smallest angle",
        fmt::format("{:.1f} deg (mean of the triangles' smallest {:.1f}; {} below 20, {} below 30)",
                    s.quality.smallest_angle, s.quality.mean_smallest_angle, s.quality.below_20, s.quality.below_30));
+  line("sharp corners", fmt::format("{} below 30 deg; {} triangles below 30 are in none of them",
+                                    result.sharp_corners.size(), s.small_away_from_corners));
   line("edge lengths", fmt::format("{:.4g} {:.4g} {:.4g} {} (shortest, median, longest)", s.quality.shortest_edge,
                                    s.quality.median_edge, s.quality.longest_edge, unit));
   line("largest distance", fmt::format("{:.4g} {} from the surface", s.largest_distance, unit));
@@ -137,6 +148,8 @@ std::string summary_text(const MeshSummary& s) {
 std::string report_json(const MeshSummary& s) {
   Json faces = Json::array();
   for (const FaceReport& face : s.result->faces) faces.push_back(face_json(*s.model, face));
+  Json corners = Json::array();
+  for (const SharpCorner& corner : s.result->sharp_corners) corners.push_back(corner_json(corner));
   const Json document = {{"format", "geovor-mesh-report"},
                          {"version", 1},
                          {"generator", "geovor " GEOVOR_VERSION},
@@ -152,6 +165,7 @@ std::string report_json(const MeshSummary& s) {
                            {"mesh_area", s.mesh_area},
                            {"face_area", s.face_area},
                            {"largest_distance", s.largest_distance},
+                           {"below_30_degrees_away_from_sharp_corners", s.small_away_from_corners},
                            {"topology", topology_json(s.topology)},
                            {"quality", quality_json(s.quality)}}},
                          {"seconds",
@@ -160,6 +174,7 @@ std::string report_json(const MeshSummary& s) {
                            {"faces", s.result->seconds_faces},
                            {"checks", s.seconds_checks},
                            {"write", s.seconds_write}}},
+                         {"sharp_corners", corners},
                          {"faces", faces}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

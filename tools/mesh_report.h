@@ -21,6 +21,7 @@ struct MeshSummary {
   double mesh_area = 0.0;  ///< of the faces that have triangles
   double face_area = 0.0;  ///< of the same faces, by quadrature on the surfaces
   double largest_distance = 0.0;
+  int small_away_from_corners = 0;  ///< triangles below 30 degrees that no sharp corner of the CAD asks for
   double seconds_read = 0.0, seconds_checks = 0.0, seconds_write = 0.0;
 
   bool complete() const { return faces_partial == 0 && faces_rejected == 0; }

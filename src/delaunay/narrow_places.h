@@ -13,6 +13,8 @@ namespace geovor {
 /// this many times its width: their angles are atan(1 / 1.5) = 33 degrees or more, however the points of the sides
 /// stand to each other.
 inline constexpr double kLengthPerGap = 1.5;
+/// In a sharp corner the points of both sides stand to each other as badly as can be, and it widens.
+inline constexpr double kLengthPerGapInCorners = 1.15;
 
 /// A place on a face's border and the way from there across the face to another part of it.
 struct NarrowPlace {

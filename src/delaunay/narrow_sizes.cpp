@@ -65,10 +65,11 @@ NarrowSizes::NarrowSizes(const CadModel& model, const std::vector<NarrowFace>& f
   }
   for (size_t f = 0; f < faces.size(); ++f) {
     for (const NarrowPlace& p : faces[f].places) {
-      if (kLengthPerGap * p.gap < kHopeless * least_[f]) continue;
+      const double asked = (p.corner < 0 ? kLengthPerGap : kLengthPerGapInCorners) * p.gap;
+      if (asked < kHopeless * least_[f]) continue;
       double size = std::numeric_limits<double>::infinity();
       for (const EdgeUse& use : uses[p.edge]) size = std::min(size, use.rule->size);
-      const double h = in_steps(std::max(kLengthPerGap * p.gap, least_[f]), size);
+      const double h = in_steps(std::max(asked, least_[f]), size);
       const int i = nearest_station(*stations[p.edge], p.s);
       if (p.corner >= 0) {
         in_corners_.push_back({p.edge, i, p.corner, p.from_corner, h});

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -122,10 +124,15 @@ std::set<int> edges_to_refine(const CadFace& face, const BorderPoints& border) {
   return edges;
 }
 
+struct Border {
+  BorderPoints points;
+  std::vector<SharpCorner> corners;
+};
+
 // Border points that keep every face's border polygon simple: where it crosses itself its edges get twice as many
 // points.
-BorderPoints place_border(const CadModel& model, const std::vector<int>& faces, const std::vector<SizeRule>& rules,
-                          const MeshOptions& options) {
+Border place_border(const CadModel& model, const std::vector<int>& faces, const std::vector<SizeRule>& rules,
+                    const MeshOptions& options) {
   constexpr int kMostHalvings = 4;
   const auto for_each = [&options](int n, const std::function<void(int)>& body) { run_each(options, n, body); };
   const BorderSampler sampler(model, rules, for_each);
@@ -142,7 +149,8 @@ BorderPoints place_border(const CadModel& model, const std::vector<int>& faces, 
     if (!changed) break;
     border = sampler.sample(finer);
   }
-  return border;
+  std::vector<SharpCorner> corners = small_corners(model, sampler.sharp_corners(), border);
+  return {std::move(border), std::move(corners)};
 }
 
 // The faces' triangles over common points: the border points that are used, then each face's inner points.
@@ -182,14 +190,18 @@ std::string number_text(double value) {
   return text.str();
 }
 
-void describe(const CadFace& face, const BorderPoints& border, const FaceMesh& part, const SizeRule& rule,
+void describe(const CadFace& face, const Border& border, const FaceMesh& part, const SizeRule& rule,
               FaceReport& report) {
-  Assembly alone(border);
+  Assembly alone(border.points);
   alone.add(face, part);
   const MeshQuality q = quality(alone.mesh);
   report.triangles = static_cast<int>(part.triangles.size());
   report.inverted = part.inverted;
   report.smallest_angle = q.smallest_angle;
+  std::vector<SharpCorner> corners;
+  std::copy_if(border.corners.begin(), border.corners.end(), std::back_inserter(corners),
+               [&face](const SharpCorner& c) { return c.face == face.number; });
+  report.below_30 = small_angles(part, border.points, corners);
   report.largest_distance = part.largest_distance;
   report.mesh_area = q.area;
   report.estimated_lengths = part.estimated_lengths;
@@ -210,14 +222,29 @@ void describe(const CadFace& face, const BorderPoints& border, const FaceMesh& p
   }
 }
 
+/// The order in which the faces are meshed: those with the most border points first, or one thread might begin a large
+/// one when the others have nothing left.
+std::vector<int> largest_first(const CadModel& model, const std::vector<int>& faces, const BorderPoints& border) {
+  std::vector<std::size_t> points(faces.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (const TrimLoop& loop : model.faces[faces[i]].loops) {
+      for (const Coedge& c : loop.coedges) points[i] += border.edges[c.edge].points.size();
+    }
+  }
+  std::vector<int> order(faces.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&points](int a, int b) { return points[a] > points[b]; });
+  return order;
+}
+
 /// One face: its triangles into `part`, what became of it into `report`.
-void mesh_one(const CadModel& model, const CadFace& face, const BorderPoints& border, const SizeRule& rule,
-              FaceMesh& part, FaceReport& report) {
+void mesh_one(const CadModel& model, const CadFace& face, const Border& border, const SizeRule& rule, FaceMesh& part,
+              FaceReport& report) {
   const auto start = Clock::now();
   if (face.surface) {
-    part = mesh_face(face, border, rule);
-    // The mesh's own area is off by (size / radius)^2 at least: more digits would tell nothing.
-    constexpr double kRelative = 1e-6;
+    part = mesh_face(face, border.points, rule);
+    // Good to 1e-6 or better: that is what the report's digits show of the difference between the two areas.
+    constexpr double kRelative = 1e-5;
     report.face_area = face_area(model, face, kRelative).value;
   } else {
     part.why = face.problems.empty() ? "it has no surface that can be used" : face.problems.front();
@@ -272,7 +299,7 @@ MeshResult mesh_model(const CadModel& model, const MeshOptions& options) {
   MeshResult result;
   result.smallest_size = smallest_size(options, model);
   auto start = Clock::now();
-  const BorderPoints border = place_border(model, faces, rules, options);
+  const Border border = place_border(model, faces, rules, options);
   result.seconds_borders = seconds_since(start);
 
   start = Clock::now();
@@ -292,15 +319,19 @@ MeshResult mesh_model(const CadModel& model, const MeshOptions& options) {
     mesh_one(model, face, border, rules[faces[i]], parts[i], report);
     progress.add();
   };
-  run_each(options, total, body);
+  const std::vector<int> order = largest_first(model, faces, border.points);
+  run_each(options, total, [&](int i) { body(order[i]); });
   result.seconds_faces = seconds_since(start);
 
-  Assembly assembly(border);
+  Assembly assembly(border.points);
   for (int i = 0; i < total; ++i) {
     if (!parts[i].ok) continue;
     assembly.add(model.faces[faces[i]], parts[i]);
   }
   result.mesh = std::move(assembly.mesh);
+  const std::set<int> chosen(faces.begin(), faces.end());
+  std::copy_if(border.corners.begin(), border.corners.end(), std::back_inserter(result.sharp_corners),
+               [&chosen](const SharpCorner& c) { return chosen.count(c.face - 1) > 0; });
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "brep/model.h"
 #include "mesh/triangle_mesh.h"
+#include "pipeline/corner_facts.h"
 
 namespace geovor {
 
@@ -51,6 +52,7 @@ struct FaceReport {
   int inverted = 0;               ///< triangles whose normal points against the face's
   double size = 0.0;              ///< that was asked for on this face, model units
   double smallest_angle = 0.0;    ///< degrees
+  SmallAngles below_30;           ///< triangles
   double largest_distance = 0.0;  ///< from points sampled on the triangles to the face, model units
   double mesh_area = 0.0;
   double face_area = 0.0;     ///< by quadrature on the surface
@@ -61,6 +63,7 @@ struct FaceReport {
 struct MeshResult {
   TriangleMesh mesh;  ///< of the faces that were meshed, in the order of their numbers
   std::vector<FaceReport> faces;
+  std::vector<SharpCorner> sharp_corners;  ///< of the faces that were to be meshed
   double smallest_size = 0.0;  ///< that the rules were allowed to ask for where a face has no rule of its own
   double seconds_borders = 0.0, seconds_faces = 0.0;
 };

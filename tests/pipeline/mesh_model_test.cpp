@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "base/error.h"
 #include "delaunay/meshing_faces.h"
 #include "mesh/mesh_checks.h"
@@ -164,6 +167,31 @@ TEST(MeshModel, KeepsTheDeflectionOrSaysThatItDoesNot) {
   const MeshResult r = mesh_model(model, o);
   EXPECT_EQ(r.faces[0].status, FaceStatus::Partial);
   EXPECT_NE(r.faces[0].why.find("--min-size"), std::string::npos) << r.faces[0].why;
+}
+
+// A wedge of 20 degrees: its corner is listed, and the triangle in it is not held against the mesh.
+TEST(MeshModel, ListsSharpCornersAndCountsSmallAnglesAwayFromThem) {
+  const double angle = 20.0 * kPi / 180.0;
+  const CadModel model = one_face(std::make_shared<Plane>(origin_frame()),
+                                  {{{0, 0}, 0}, {{8, 0}, 1}, {{8 * std::cos(angle), 8 * std::sin(angle)}, 2}});
+  const MeshResult result = mesh_model(model, of_size(1.0));
+  ASSERT_EQ(result.sharp_corners.size(), 1u);
+  EXPECT_NEAR(result.sharp_corners[0].angle, 20.0, 1e-9);
+  EXPECT_NEAR(result.sharp_corners[0].place.norm(), 0.0, 1e-12);
+  EXPECT_EQ(result.faces[0].below_30.all, 1 + result.faces[0].below_30.away_from_corners);
+  int below = 0;  // counted on the mesh itself, by the law of cosines
+  for (const auto& t : result.mesh.triangles) {
+    const std::array<double, 3> l{(result.mesh.points[t[0]] - result.mesh.points[t[1]]).norm(),
+                                  (result.mesh.points[t[1]] - result.mesh.points[t[2]]).norm(),
+                                  (result.mesh.points[t[2]] - result.mesh.points[t[0]]).norm()};
+    double largest = -1.0;
+    for (int i = 0; i < 3; ++i) {
+      const double a = l[i], b = l[(i + 1) % 3], c = l[(i + 2) % 3];
+      largest = std::max(largest, (a * a + b * b - c * c) / (2 * a * b));
+    }
+    below += largest > std::cos(kPi / 6);
+  }
+  EXPECT_EQ(result.faces[0].below_30.all, below);
 }
 
 }  // namespace
