@@ -74,11 +74,18 @@ class Stars {
            link_.begin() + begin_[i + 1];
   }
 
-  // Each triangle once, when its voter with the smallest number comes.
+  // Each triangle once, when its voter with the smallest number comes. At a tip its own star alone decides: seen from
+  // its neighbours, whose tangent planes turn about it, the order around it is lost.
   void count_votes(const std::array<int, 3>& t, std::vector<std::array<int, 3>>& agreed,
                    std::vector<Disputed>& disputed) {
     const bool second = has(t[1], t[2], t[0]), third = has(t[2], t[0], t[1]);
     if ((second && t[1] < t[0]) || (third && t[2] < t[0])) return;
+    const std::array<bool, 3> votes = {true, second, third};
+    for (int k = 0; k < 3; ++k) {
+      if (!is_fixed(t[k]) || !border_.is_tip[t[k]]) continue;
+      if (votes[k]) agreed.push_back(t);
+      return;
+    }
     if (second && third) {
       agreed.push_back(t);
       return;
