@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <optional>
 
 #include "delaunay/edge_set.h"
@@ -44,14 +45,12 @@ class Fronts {
       : probe_(probe), field_(field), border_(border), rule_(rule), order_(rule.size), points_(border.points) {
     for (size_t i = 0; i < points_.size(); ++i) {
       grid_.add(points_[i].x);
-      border_grid_.add(points_[i].x);
-      if (!border.on_border(static_cast<int>(i))) continue;
-      longest_border_ = std::max(longest_border_, (at(border.next[i]).x - points_[i].x).norm());
+      if (border.on_border(static_cast<int>(i))) add_border(static_cast<int>(i));
     }
   }
 
   std::vector<MeshVertex> run() {
-    if (longest_border_ == 0.0) {
+    if (border_edges_.empty()) {
       begin_anywhere();
     } else {
       begin_at_border();
@@ -70,6 +69,15 @@ class Fronts {
   const MeshVertex& at(int i) const { return points_[i]; }
   bool is_fixed(int i) const { return i < static_cast<int>(border_.points.size()); }
   PlaceOrder::Key key(const Edge& e) const { return order_.key(0.5 * (at(e.a).x + at(e.b).x)); }
+  void add_border(int a) {
+    const MeshVertex &from = at(a), &to = at(border_.next[a]);
+    BorderEdges& edges = border_edges_[std::ilogb((to.x - from.x).norm()) + 1];
+    for (const MeshVertex* end : {&from, &to}) {
+      edges.ends.add(end->x);
+      edges.of_end.push_back(a);
+    }
+  }
+
   void begin_at_border() {
     for (size_t i = 0; i < border_.points.size(); ++i) {
       if (!border_.on_border(static_cast<int>(i))) continue;
@@ -102,9 +110,14 @@ class Fronts {
   const SizeRule& rule_;
   PlaceOrder order_;
   std::vector<MeshVertex> points_;
-  SpaceGrid grid_, border_grid_;
+  SpaceGrid grid_;
+  /// Edges of the border that are no longer than a power of two.
+  struct BorderEdges {
+    SpaceGrid ends;
+    std::vector<int> of_end;  ///< the edge's first point
+  };
+  std::map<int, BorderEdges> border_edges_;  ///< by the power: a long edge makes no search among short ones long
   EdgeSet used_;
-  double longest_border_ = 0.0;
   std::deque<Edge> rows_, closings_;
 };
 
@@ -187,11 +200,10 @@ bool Fronts::faces(int w, const MeshVertex& v) const {
 
 // Whether the border runs between the middle of the edge and the point, or close by the point.
 bool Fronts::meets_border(const Xyz& from, const MeshVertex& v, const Edge& e) {
-  if (longest_border_ == 0.0) return false;
   bool meets = false;
   const Xyz way = v.x - from;
   const auto look_at = [&](int a) {
-    if (meets || !border_.on_border(a)) return;
+    if (meets) return;
     const int b = border_.next[a];
     const bool is_same = a == e.a && b == e.b;
     const bool is_other_side = at(a).border == at(e.b).border && at(b).border == at(e.a).border && at(a).border >= 0;
@@ -208,10 +220,11 @@ bool Fronts::meets_border(const Xyz& from, const MeshVertex& v, const Edge& e) {
     const auto within = [](double x) { return x > -kCorner && x < 1.0 + kCorner; };
     meets = std::abs(q.dot(v.n)) < v.h && within(along) && within(across);
   };
-  border_grid_.each_near(v.x, std::max(way.norm(), kOffBorder * v.h) + 0.5 * longest_border_, [&](int w) {
-    look_at(w);
-    if (border_.on_border(w)) look_at(border_.before[w]);
-  });
+  // An edge that is as near has an end that is nearer than half its length more.
+  const double reach = std::max(std::hypot(way.norm(), v.h), kOffBorder * v.h);
+  for (auto& [power, edges] : border_edges_) {
+    edges.ends.each_near(v.x, reach + 0.5 * std::exp2(power), [&](int end) { look_at(edges.of_end[end]); });
+  }
   return meets;
 }
 
