@@ -42,11 +42,13 @@ double share_of_segments(double count, double s, double h0, double h1) {
 
 using StationSizes = std::vector<std::vector<double>>;  // of the edges
 
-// h(x) <= h(y) + gradation * (distance along the edges): Dijkstra's algorithm with the stations as nodes.
+// h(x) <= h(y) + gradation * (distance along the edges and straight across narrow faces): Dijkstra's algorithm with the
+// stations as nodes.
 class Grading {
  public:
-  Grading(const CadModel& model, const std::vector<std::optional<EdgeStations>>& stations, double gradation)
-      : model_(model), stations_(stations), gradation_(gradation) {}
+  Grading(const CadModel& model, const std::vector<std::optional<EdgeStations>>& stations,
+          const std::vector<std::vector<NarrowSizes::Link>>& links, double gradation)
+      : model_(model), stations_(stations), links_(links), gradation_(gradation) {}
   void run(StationSizes& sizes, std::vector<double>& vertex);
 
  private:
@@ -66,6 +68,7 @@ class Grading {
 
   const CadModel& model_;
   const std::vector<std::optional<EdgeStations>>& stations_;
+  const std::vector<std::vector<NarrowSizes::Link>>& links_;  // of the edges; none while these are not known
   double gradation_;
   std::priority_queue<Node, std::vector<Node>, std::greater<>> queue_;
   std::vector<std::vector<std::pair<int, bool>>> at_vertex_;  // edges, and whether they start there
@@ -103,6 +106,15 @@ void Grading::from_station(const Node& node, StationSizes& sizes, std::vector<do
   for (int i : {node.index - 1, node.index + 1}) {
     if (i < 0 || i > last) continue;
     lower(h[i], node.h + gradation_ * std::abs(s[i] - s[node.index]), node.edge, i);
+  }
+  if (!links_.empty()) {
+    const std::vector<NarrowSizes::Link>& across = links_[node.edge];
+    auto link = std::lower_bound(across.begin(), across.end(), node.index,
+                                 [](const NarrowSizes::Link& l, int station) { return l.station < station; });
+    for (; link != across.end() && link->station == node.index; ++link) {
+      lower(sizes[link->to_edge][link->to_station], node.h + gradation_ * link->distance, link->to_edge,
+            link->to_station);
+    }
   }
   const CadEdge& e = model_.edges[node.edge];
   if (node.index == 0 && e.first_vertex >= 0) lower(vertex[e.first_vertex], node.h, -1, e.first_vertex);
@@ -300,7 +312,7 @@ BorderSampler::Sizes BorderSampler::graded_sizes(const std::vector<double>& fine
     const double most = std::max(stations_[e]->way.length(), shortest(uses_[e]));
     for (double h : stations_[e]->h) sizes.h[e].push_back(std::min(h / finer[e], most));
   }
-  if (!rules_.empty()) Grading(model_, stations_, rules_.front().gradation).run(sizes.h, sizes.vertex);
+  if (!rules_.empty()) Grading(model_, stations_, narrow_.links(), rules_.front().gradation).run(sizes.h, sizes.vertex);
   return sizes;
 }
 
@@ -309,7 +321,7 @@ BorderPoints BorderSampler::sample(const std::vector<double>& finer) const {
   Sizes sizes = graded_sizes(finer);
   const std::vector<NarrowSizes::Caps> caps = narrow_.lower_in_corners(stations_, sizes.vertex, sizes.h);
   if (!narrow_.corners().empty()) {
-    Grading(model_, stations_, rules_.front().gradation).run(sizes.h, sizes.vertex);
+    Grading(model_, stations_, narrow_.links(), rules_.front().gradation).run(sizes.h, sizes.vertex);
   }
   std::vector<Places> places(edges);
   for_each_(edges, [&](int e) {

@@ -102,7 +102,7 @@ class Finder {
     int piece;
     double s;
     Xyz x;
-    double reach;
+    double h;
     std::optional<Frame> frame;  // made when it is needed
   };
   void look_at(From& from, const Segment& seg, double& gap);
@@ -240,8 +240,8 @@ void Finder::look_from(int p, const std::vector<double>& h) {
 // The gap, or, where there is none that matters, the largest that would.
 double Finder::gap_at(int p, double s, double h) {
   const Piece& piece = pieces_[p];
-  From from{p, s, piece.edge->curve->position(piece.stations->way.parameter(s)), h / kLengthPerGap, std::nullopt};
-  double gap = from.reach, reach2 = gap * gap;
+  From from{p, s, piece.edge->curve->position(piece.stations->way.parameter(s)), h, std::nullopt};
+  double gap = h / kLengthPerGap, reach2 = h * h;
   boxes_.near(from.x, reach2, [&](int i, double) { look_at(from, segments_[i], gap); });
   return gap;
 }
@@ -277,9 +277,11 @@ void Finder::look_at(From& from, const Segment& seg, double& gap) {
   const Frame to = frame(seg.piece, r);
   const double distance = (to.x - from.x).norm();
   const Way way = way_between(from.piece, from.s, seg.piece, r);
-  if (!(distance > 0.0 && distance < from.reach && distance < kRunsOn * way.length)) return;
+  if (!(distance > 0.0 && distance < from.h && distance < kRunsOn * way.length)) return;
   const Xyz d = (to.x - from.x) / distance;
   if (!(from.frame->n.dot(to.n) > kSameSheet && from.frame->sees(d) && to.sees(-d))) return;
+  result_.pairs.push_back({{pieces_[from.piece].use->edge, from.s}, {q.use->edge, r}, distance});
+  if (!(distance < from.h / kLengthPerGap)) return;
   const int corner = way.corner >= 0 && ends_sharp_[way.corner] ? pieces_[way.corner].end_vertex() : -1;
   result_.places.push_back({pieces_[from.piece].use->edge, from.s, distance, corner, way.from_first});
   result_.places.push_back({q.use->edge, r, distance, corner, way.from_second});

@@ -25,6 +25,16 @@ struct NarrowPlace {
   double from_corner = 0.0;
 };
 
+/// Two places that see each other.
+struct PlacePair {
+  struct Place {
+    int edge = -1;
+    double s = 0.0;
+  };
+  Place a, b;
+  double distance = 0.0;
+};
+
 /// The end of one edge and the start of the next, with the face between them.
 struct FaceCorner {
   int face = -1, vertex = -1;
@@ -39,6 +49,7 @@ struct FaceCorner {
 struct NarrowFace {
   double least = 0.0;  ///< no size below this may be asked for
   std::vector<NarrowPlace> places;
+  std::vector<PlacePair> pairs;  ///< also of places farther from each other, up to h: sizes are graded across the face
   std::vector<FaceCorner> corners;  ///< the sharp ones
 };
 

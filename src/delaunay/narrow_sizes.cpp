@@ -1,6 +1,7 @@
 #include "delaunay/narrow_sizes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -49,6 +50,13 @@ int nearest_station(const EdgeStations& st, double s) {
   return s - st.s[i - 1] < st.s[i] - s ? i - 1 : i;
 }
 
+// The stations before and after the place, or its own.
+std::array<int, 2> stations_beside(const EdgeStations& st, double s) {
+  const int i = nearest_station(st, s);
+  if (std::abs(st.s[i] - s) <= kSamePlace * st.way.length()) return {i, i};
+  return st.s[i] < s ? std::array<int, 2>{i, i + 1} : std::array<int, 2>{i - 1, i};
+}
+
 }  // namespace
 
 NarrowSizes::NarrowSizes(const CadModel& model, const std::vector<NarrowFace>& faces,
@@ -63,6 +71,7 @@ NarrowSizes::NarrowSizes(const CadModel& model, const std::vector<NarrowFace>& f
   for (size_t e = 0; e < places.size(); ++e) {
     if (!places[e].empty()) insert(*stations[e], *model.edges[e].curve, std::move(places[e]));
   }
+  add_links(faces, stations);
   for (size_t f = 0; f < faces.size(); ++f) {
     for (const NarrowPlace& p : faces[f].places) {
       const double asked = (p.corner < 0 ? kLengthPerGap : kLengthPerGapInCorners) * p.gap;
@@ -77,6 +86,26 @@ NarrowSizes::NarrowSizes(const CadModel& model, const std::vector<NarrowFace>& f
         stations[p.edge]->h[i] = std::min(stations[p.edge]->h[i], h);
       }
     }
+  }
+}
+
+void NarrowSizes::add_links(const std::vector<NarrowFace>& faces,
+                            const std::vector<std::optional<EdgeStations>>& stations) {
+  links_.resize(stations.size());
+  for (const NarrowFace& face : faces) {
+    for (const PlacePair& p : face.pairs) {
+      const EdgeStations &a = *stations[p.a.edge], &b = *stations[p.b.edge];
+      for (int i : stations_beside(a, p.a.s)) {
+        for (int k : stations_beside(b, p.b.s)) {
+          const double distance = p.distance + std::abs(a.s[i] - p.a.s) + std::abs(b.s[k] - p.b.s);
+          links_[p.a.edge].push_back({i, p.b.edge, k, distance});
+          links_[p.b.edge].push_back({k, p.a.edge, i, distance});
+        }
+      }
+    }
+  }
+  for (std::vector<Link>& of_edge : links_) {
+    std::sort(of_edge.begin(), of_edge.end(), [](const Link& a, const Link& b) { return a.station < b.station; });
   }
 }
 

@@ -37,11 +37,22 @@ class NarrowSizes {
 
   const std::vector<FaceCorner>& corners() const { return corners_; }
 
+  /// A station of one edge and one of another (or of the same) across a face.
+  struct Link {
+    int station = -1, to_edge = -1, to_station = -1;
+    double distance = 0.0;
+  };
+  /// Those of each edge, by station; each also the other way.
+  const std::vector<std::vector<Link>>& links() const { return links_; }
+
  private:
   struct InCorner {
     int edge = -1, station = -1, corner = -1;
     double from_corner = 0.0, size = 0.0;
   };
+  void add_links(const std::vector<NarrowFace>& faces, const std::vector<std::optional<EdgeStations>>& stations);
+
+  std::vector<std::vector<Link>> links_;
   std::vector<FaceCorner> corners_;
   std::vector<double> least_;  // of the faces
   std::vector<InCorner> in_corners_;

@@ -108,6 +108,17 @@ TEST(NarrowPlaces, SeeTheCornerOfAHoleNearTheEdge) {
   EXPECT_GE(quality(mesh_of(model, rule)).smallest_angle, 25.0);
 }
 
+// A hole of 0.1 x 0.1 lies 0.4 above the lower side, which is to be 0.1 + 0.5 * 0.4 there; 0.4 alone asks for 0.6.
+TEST(NarrowPlaces, GradeSizesAcrossTheFace) {
+  CadModel model = polygon({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
+  add_polygon(model, {{{5, 0.4}, 4}, {{5, 0.5}, 5}, {{5.1, 0.5}, 6}, {{5.1, 0.4}, 7}});
+  SizeRule rule{1.0, 0.05};
+  rule.gradation = 0.5;
+  const double longest = longest_near(border_of(model, rule), 0, {5.05, 0, 0}, 0.01);
+  EXPECT_LE(longest, 1.3 * 0.3);
+  EXPECT_GE(longest, 0.9 * 0.3);
+}
+
 // The two sides of a thin notch are near each other with nothing of the face between them.
 TEST(NarrowPlaces, AreNotSeenAcrossTheOutside) {
   const BorderPoints border =
