@@ -32,6 +32,10 @@ constexpr double kShortestSide = 0.75, kLongestSide = 1.4;
 constexpr double kLeastHeight = 0.32;
 // A point that is nearer by less than this part of the size is as near.
 constexpr double kAsNear = 1e-7;
+// Where there is no normal it is zero or not a number, else of length one.
+constexpr double kLeastNormal = 0.5;
+// A face that wants more points than this is asking for a mistake in the units.
+constexpr size_t kMostPoints = 4'000'000;
 // A face without a border is begun from a point this many times its extent away: one place of it is nearest.
 constexpr double kFarAway = 4.0;
 
@@ -56,6 +60,7 @@ class Fronts {
       begin_at_border();
     }
     while (!rows_.empty() || !closings_.empty()) {
+      if (points_.size() > kMostPoints) return {};
       // What a row's new points bring goes first; edges to points that were there before wait until the rows have met.
       std::deque<Edge>& queue = rows_.empty() ? closings_ : rows_;
       const Edge e = queue.front();
@@ -134,7 +139,7 @@ void Fronts::begin_anywhere() {
   const Projection foot = project(probe_.surface(), away * PlaceOrder::first(), box);
   if (!foot.converged) return;
   const SurfaceSample s = probe_.at(foot.uv);
-  if (!s.x.allFinite() || !s.n.allFinite()) return;
+  if (!s.x.allFinite() || !(s.n.squaredNorm() > kLeastNormal)) return;
   MeshVertex first{s.x, s.n, field_.at(s.x, rule_.at(s.curvature)), -1, {foot.uv}, false, false};
   const Xyz way = (PlaceOrder::second() - PlaceOrder::second().dot(s.n) * s.n).normalized();
   const auto second = drop(s.x + first.h * way, first);
@@ -148,7 +153,7 @@ std::optional<MeshVertex> Fronts::drop(const Xyz& x, const MeshVertex& near) con
   const Projection foot = project_near(probe_.surface(), x, near.uv[0], probe_.box());
   if (!foot.converged || !(foot.distance < near.h)) return std::nullopt;
   const SurfaceSample s = probe_.at(foot.uv);
-  if (!s.x.allFinite() || !s.n.allFinite()) return std::nullopt;
+  if (!s.x.allFinite() || !(s.n.squaredNorm() > kLeastNormal)) return std::nullopt;
   const double bound = near.h + rule_.gradation * (s.x - near.x).norm();
   return MeshVertex{s.x, s.n, field_.at(s.x, std::min(rule_.at(s.curvature), bound)), -1, {foot.uv}, false, false};
 }

@@ -15,7 +15,7 @@ namespace geovor {
 /// from the next. They are made without a triangulation and without the parameter plane: every decision is one about
 /// places in space, normals and sizes, so that the same face has the same points under any parameterization.
 ///
-/// Empty where the face has no border and no place to start from is found.
+/// Empty where the face has no border and no place to start from is found, and where it wants more than four million.
 std::vector<MeshVertex> fill_by_fronts(const SurfaceProbe& probe, const SizeRule& rule, const SizeField& field,
                                        const FaceBorder& border);
 

@@ -217,7 +217,7 @@ std::optional<MeshVertex> SurfaceTriangulation::drop_from(int v, const Xyz& poin
   const Projection foot = project_near(probe_.surface(), point, from.uv[0], probe_.box());
   if (!foot.converged || !(foot.distance < kLargestDrop * from.h)) return std::nullopt;
   const SurfaceSample s = probe_.at(foot.uv);
-  if (!s.x.allFinite() || !s.n.allFinite()) return std::nullopt;
+  if (!s.x.allFinite() || !(s.n.squaredNorm() > 0.0)) return std::nullopt;
   return MeshVertex{s.x, s.n, from.h, -1, {foot.uv}, false, false};
 }
 
