@@ -44,6 +44,7 @@ struct Ends {
 };
 
 Ends read_ends(const std::string& path) {
+  if (path.empty()) fail("the path is empty; name a CAD file");
   std::error_code none;
   const fs::file_status status = fs::status(path, none);
   if (!fs::exists(status)) fail("there is no such file; check the path");

@@ -34,7 +34,7 @@ void write_outputs(const CheckArguments& arguments, const CheckSummary& summary)
 }  // namespace
 
 int run(const CheckArguments& arguments) {
-  check_outputs(arguments.outputs, arguments.against, arguments.mesh);
+  check_outputs(arguments.outputs, arguments.against, arguments.mesh, "mesh");
   const LoadedMesh loaded = in_context(arguments.mesh, [&] { return read_mesh(arguments.mesh); });
   const CadModel model = in_context(arguments.against, [&] { return read_cad(arguments.against); });
   const MeshCheck check =

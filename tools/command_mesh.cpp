@@ -67,8 +67,7 @@ void name_failures(const MeshSummary& summary) {
 int run(const MeshArguments& arguments) {
   std::vector<std::string> paths = arguments.outputs;
   if (!arguments.report.empty()) paths.push_back(arguments.report);
-  check_outputs(paths, arguments.input);
-  if (!arguments.sizes.empty()) check_outputs(paths, arguments.sizes);
+  check_outputs(paths, arguments.input, arguments.sizes, "sizes file");
   Stopwatch watch;
   const CadModel model = in_context(arguments.input, [&] {
     CadModel read = read_cad(arguments.input);

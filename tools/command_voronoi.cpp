@@ -210,7 +210,7 @@ void warn_of_exits(const CadModel& model, const CadFace& face, const VoronoiDiag
 }  // namespace
 
 int run(const VoronoiArguments& arguments) {
-  check_outputs(arguments.outputs, arguments.input, arguments.sites);
+  check_outputs(arguments.outputs, arguments.input, arguments.sites, "sites file");
   const SitesFile file = arguments.sites.empty() ? SitesFile{} : read_sites_file(arguments.sites);
   if (arguments.snap && !file.in_space) {
     throw Error(ErrorCode::Usage,

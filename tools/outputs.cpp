@@ -39,8 +39,15 @@ fs::path folder_of(const std::string& path) {
 }
 
 bool same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(a), ignored) == fs::weakly_canonical(fs::absolute(b), ignored);
+  const auto place = [](const std::string& path) {
+    std::error_code failure;
+    const fs::path absolute = fs::absolute(path, failure);
+    const fs::path canonical = failure ? fs::path() : fs::weakly_canonical(absolute, failure);
+    return failure ? fs::path() : canonical;
+  };
+  // A path that means no place (an empty one, one too long) is no file; whoever opens it says what is wrong.
+  const fs::path place_of_a = place(a);
+  return !place_of_a.empty() && place_of_a == place(b);
 }
 
 void check_place(const std::string& path) {
@@ -84,13 +91,14 @@ void check_endings(const std::vector<std::string>& paths, const std::vector<std:
   }
 }
 
-void check_outputs(const std::vector<std::string>& paths, const std::string& input, const std::string& sites) {
+void check_outputs(const std::vector<std::string>& paths, const std::string& input, const std::string& other_input,
+                   const std::string& what_other) {
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (same_file(paths[i], input)) {
       throw Error(ErrorCode::Usage, fmt::format("{}: is the input itself; choose another output", paths[i]));
     }
-    if (!sites.empty() && same_file(paths[i], sites)) {
-      throw Error(ErrorCode::Usage, fmt::format("{}: is the sites file; choose another output", paths[i]));
+    if (!other_input.empty() && same_file(paths[i], other_input)) {
+      throw Error(ErrorCode::Usage, fmt::format("{}: is the {}; choose another output", paths[i], what_other));
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (!same_file(paths[i], paths[k])) continue;

@@ -10,9 +10,11 @@ namespace geovor {
 /// The ending of a path in lower case, with its dot: ".stl"; empty where there is none.
 std::string ending(const std::string& path);
 
-/// Throws Error(Usage) where an ending is none of `known`, a path is given twice or is the input itself (or the sites
-/// file, empty: none), and Error(Unwritable) where the folder doesn't exist or can't be written to.
-void check_outputs(const std::vector<std::string>& paths, const std::string& input, const std::string& sites = {});
+/// Throws Error(Usage) where a path is given twice or is the input itself (or another input, which the message calls
+/// `what_other`; empty: none), and Error(Unwritable) where the folder doesn't exist or can't be written to.
+void check_outputs(const std::vector<std::string>& paths, const std::string& input, const std::string& other_input = {},
+                   const std::string& what_other = {});
+/// Throws Error(Usage) where an ending is none of `known`.
 void check_endings(const std::vector<std::string>& paths, const std::vector<std::string>& known);
 
 /// Files on their way: each is written into a hidden folder beside its place and moved there by commit(), so that none

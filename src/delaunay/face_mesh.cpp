@@ -41,7 +41,7 @@ void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
     const auto [a, b, c] = topo.corners(t);
     const Xyz &p = mesh.vertex(a).x, &q = mesh.vertex(b).x, &r = mesh.vertex(c).x;
     const auto foot = mesh.foot((p + q + r) / 3.0, t);
-    if (!foot || foot->n.dot((q - p).cross(r - p)) <= 0.0) ++out.inverted;
+    if (!foot || !(foot->n.dot((q - p).cross(r - p)) > 0.0)) ++out.inverted;
     for (const Xyz& x : {Xyz((p + q + r) / 3.0), Xyz((p + q) / 2.0), Xyz((q + r) / 2.0), Xyz((r + p) / 2.0)}) {
       if (const auto f = mesh.foot(x, t)) out.largest_distance = std::max(out.largest_distance, (f->x - x).norm());
     }
@@ -64,6 +64,7 @@ std::optional<SurfaceTriangulation> fill(const CadFace& face, const SurfaceProbe
   std::optional<SurfaceTriangulation> mesh;
   for (int i = 1; i <= kMostFillings; ++i) {
     std::vector<MeshVertex> points = fill_by_fronts(probe, rule, field, rim);
+    if (points.empty()) return std::nullopt;
     if (field.learn(points) && i < kMostFillings) continue;
     auto triangles = triangulate_by_stars(points, rim, rule.size);
     if (!triangles) return std::nullopt;

@@ -15,6 +15,9 @@ namespace {
 // fifteen on the digits are a double's.
 constexpr int kFewestDigits = 6, kMostDigits = 15;
 
+// Areas are compared by their squares, four lengths in a product: with larger coordinates these would overflow.
+constexpr double kLargest = 1e75;
+
 /// Half a unit in the last place of the largest coordinate, in all three directions at once.
 double rounding_of(int digits, double largest) {
   if (!(largest > 0.0)) return 0.0;
@@ -86,6 +89,10 @@ LoadedMesh MeshBuilder::finish(int digits) {
     const Xyz& x = loaded_.mesh.points[i];
     if (!x.allFinite()) fail_to_read(0, "point " + std::to_string(i + 1) + " is not finite; export the mesh anew");
     largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    if (largest > kLargest) {
+      fail_to_read(0,
+                   "point " + std::to_string(i + 1) + " is farther away than any part reaches; export the mesh anew");
+    }
   }
   for (int t = 0; t < triangles(); ++t) {
     for (const int c : loaded_.mesh.triangles[t]) {

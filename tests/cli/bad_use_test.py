@@ -26,6 +26,9 @@ class BadInput(ProgramTest):
     def test_a_missing_file_is_named(self):
         self.mesh_fails("missing.step", "missing.step: ")
 
+    def test_an_empty_path_names_no_file(self):
+        self.mesh_fails("", "the path is empty; name a CAD file")
+
     def test_a_missing_file_is_named_by_info(self):
         self.fail_with(UNREADABLE, "missing.step: ", "info", "missing.step")
 
@@ -131,6 +134,10 @@ class BadCommandLine(ProgramTest):
     def test_an_output_that_is_the_input(self):
         name = self.write("part.step", pathlib.Path(sample("sphere.step")).read_bytes())
         self.fail_with(USAGE, "is the input itself", "mesh", name, "--size", 1, "-o", name)
+
+    def test_an_output_that_is_the_sizes_file(self):
+        name = self.write("sizes.stl", "face,size\n1,2\n")
+        self.mesh_fails("is the sizes file", "--size", 5, "--sizes", name, "-o", name)
 
     def test_a_face_that_is_not_there(self):
         self.mesh_fails("Face2 is not there", "--size", 5, "-o", "out.stl", "--faces", "1-2")

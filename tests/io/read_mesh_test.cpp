@@ -249,6 +249,8 @@ TEST_F(ReadMesh, EveryFormatRefusesWhatItIsNot) {
 TEST_F(ReadMesh, ATriangleThatNamesNoPointIsAnError) {
   EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n").find("triangle 1"), std::string::npos);
   EXPECT_NE(refusal("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n").find("not finite"), std::string::npos);
+  EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n").find("point 2 is farther away"),
+            std::string::npos);
 }
 
 TEST_F(ReadMesh, ANumberThatIsNoneNamesItsLine) {
