@@ -57,12 +57,12 @@ std::string name_of(const TDF_Label& label) {
 }
 
 /// A face takes the colour of the smallest shape around it that has one: part, then solid or shell, then itself.
-void label_faces(const TopoDS_Shape& shape, const std::optional<Colour>& colour, FaceLabels& labels) {
+void label_faces(const TopoDS_Shape& shape, const std::optional<Colour>& colour, FileLabels& labels) {
   if (!colour) return;
   for (const TopoDS_Shape& face : parts_of(shape, TopAbs_FACE)) labels[face.TShape().get()].colour = colour;
 }
 
-void label_subshapes(const TDF_Label& part, FaceLabels& labels) {
+void label_subshapes(const TDF_Label& part, FileLabels& labels) {
   TDF_LabelSequence subshapes;
   XCAFDoc_ShapeTool::GetSubShapes(part, subshapes);
   for (const bool faces : {false, true}) {
@@ -75,8 +75,8 @@ void label_subshapes(const TDF_Label& part, FaceLabels& labels) {
   }
 }
 
-FaceLabels read_labels(const Handle(TDocStd_Document) & document) {
-  FaceLabels labels;
+FileLabels read_labels(const Handle(TDocStd_Document) & document) {
+  FileLabels labels;
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   TDF_LabelSequence parts;
   shapes->GetShapes(parts);

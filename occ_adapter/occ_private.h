@@ -67,16 +67,16 @@ auto translated(ErrorCode code, const std::string& prefix, const std::string& re
 }
 
 /// What the file says of a face beside its geometry; keyed by the address of the face's TShape, for look-up only.
-struct FaceLabel {
+struct FileLabel {
   std::string name;
   std::optional<Colour> colour;
 };
-using FaceLabels = std::map<const void*, FaceLabel>;
+using FileLabels = std::map<const void*, FileLabel>;
 
 struct LoadedShape {
   TopoDS_Shape shape;
   std::string file_unit;
-  FaceLabels labels;
+  FileLabels labels;
   std::vector<std::string> warnings;
 };
 

@@ -129,10 +129,10 @@ struct Places {
 
 // A border that one face alone uses lies on that face, below the edge's own curve (its p-curve may run ahead or behind
 // along the edge); a shared one on the curve.
-Xyz position(const CadEdge& edge, const std::vector<EdgeUse>& uses, double t) {
+Xyz position(const CadEdge& edge, const std::vector<FaceUse>& uses, double t) {
   const Xyz on_curve = edge.curve->position(t);
-  const EdgeUse& first = uses.front();
-  const bool one_face = std::all_of(uses.begin(), uses.end(), [&](const EdgeUse& u) { return u.face == first.face; });
+  const FaceUse& first = uses.front();
+  const bool one_face = std::all_of(uses.begin(), uses.end(), [&](const FaceUse& u) { return u.face == first.face; });
   if (!one_face || !first.probe) return on_curve;
   const Surface& surface = first.probe->surface();
   const auto p = first.coedge->pcurve->position(t);
@@ -168,7 +168,7 @@ Between between_caps(const EdgeStations& st, const std::vector<double>& h, Narro
   return piece;
 }
 
-Places place(const CadEdge& edge, const std::vector<EdgeUse>& uses, const EdgeStations& st,
+Places place(const CadEdge& edge, const std::vector<FaceUse>& uses, const EdgeStations& st,
              const std::vector<double>& h, NarrowSizes::Caps caps) {
   const Between piece = between_caps(st, h, caps);
   std::vector<double> work(piece.s.size(), 0.0);  // the integral of ds / h
@@ -253,9 +253,9 @@ class Numbering {
 };
 
 // The length below which an edge counts as an accident of the CAD.
-double shortest(const std::vector<EdgeUse>& uses) {
+double shortest(const std::vector<FaceUse>& uses) {
   double least = std::numeric_limits<double>::infinity();
-  for (const EdgeUse& use : uses) least = std::min(least, use.rule->min_size);
+  for (const FaceUse& use : uses) least = std::min(least, use.rule->min_size);
   return kShortest * least;
 }
 
@@ -305,7 +305,7 @@ BorderSampler::Sizes BorderSampler::graded_sizes(const std::vector<double>& fine
   for (int e = 0; e < edges; ++e) {
     if (model_.edges[e].degenerate() && model_.edges[e].first_vertex >= 0) {
       double& pole = sizes.vertex[model_.edges[e].first_vertex];
-      for (const EdgeUse& use : uses_[e]) pole = std::min(pole, use.rule->size);
+      for (const FaceUse& use : uses_[e]) pole = std::min(pole, use.rule->size);
     }
     if (!stations_[e]) continue;
     // An edge shorter than its size is one segment, and its neighbours must be allowed to be as short.

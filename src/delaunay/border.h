@@ -56,7 +56,7 @@ class BorderSampler {
   std::vector<SizeRule> rules_;
   ForEach for_each_;
   std::vector<std::optional<SurfaceProbe>> probes_;  // of the faces
-  std::vector<std::vector<EdgeUse>> uses_;           // of the edges
+  std::vector<std::vector<FaceUse>> uses_;           // of the edges
   std::vector<std::optional<EdgeStations>> stations_;
   NarrowSizes narrow_;
 };

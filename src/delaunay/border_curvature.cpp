@@ -21,7 +21,7 @@ constexpr int kMostSteps = 12;
 constexpr double kSettled = 1e-10;
 
 // One step of d straight into the face, as the derivatives at the border tell.
-std::optional<Uv> by_derivatives(const SurfaceProbe& probe, const BorderPlace& at, double d) {
+std::optional<Uv> by_derivatives(const SurfaceProbe& probe, const BesidePlace& at, double d) {
   const SurfaceJet j = probe.surface().jet(at.p);
   if (!(j.Su.norm() > kWeak * probe.u_speed() && j.Sv.norm() > kWeak * probe.v_speed())) return std::nullopt;
   Xyz across = push_forward(j, at.inward);
@@ -31,7 +31,7 @@ std::optional<Uv> by_derivatives(const SurfaceProbe& probe, const BorderPlace& a
 }
 
 // Along the parameters until the distance is d; the directions of the box's sides count alike.
-std::optional<Uv> by_search(const SurfaceProbe& probe, const BorderPlace& at, double d) {
+std::optional<Uv> by_search(const SurfaceProbe& probe, const BesidePlace& at, double d) {
   const double u = probe.box().u.length(), v = probe.box().v.length();
   const double scale = 1.0 / std::hypot(at.inward.u / u, at.inward.v / v);
   const auto place = [&](double part) { return at.p + (scale * part) * at.inward; };
@@ -49,7 +49,7 @@ std::optional<Uv> by_search(const SurfaceProbe& probe, const BorderPlace& at, do
 }
 
 // (S - x) . tangent = 0 and |S - x| = d by Newton's method.
-std::optional<Curvatures> settle(const SurfaceProbe& probe, const BorderPlace& at, double d, Uv p) {
+std::optional<Curvatures> settle(const SurfaceProbe& probe, const BesidePlace& at, double d, Uv p) {
   for (int k = 0; k < kMostSteps; ++k) {
     const SurfaceJet j = probe.surface().jet(p);
     const Xyz r = j.S - at.x;
@@ -65,7 +65,7 @@ std::optional<Curvatures> settle(const SurfaceProbe& probe, const BorderPlace& a
 
 }  // namespace
 
-double curvature_beside(const SurfaceProbe& probe, const BorderPlace& at, double d) {
+double curvature_beside(const SurfaceProbe& probe, const BesidePlace& at, double d) {
   for (const auto& guess_by : {by_derivatives, by_search}) {
     const std::optional<Uv> guess = guess_by(probe, at, d);
     const std::optional<Curvatures> beside = guess ? settle(probe, at, d, *guess) : std::nullopt;

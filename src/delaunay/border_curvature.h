@@ -6,7 +6,7 @@
 namespace geovor {
 
 /// A place on a face's border, and where the face lies.
-struct BorderPlace {
+struct BesidePlace {
   Uv p;
   UvVec inward;  ///< a parameter direction into the face, of any length
   Xyz x;         ///< the same place in space
@@ -16,6 +16,6 @@ struct BorderPlace {
 /// The largest |normal curvature| at the distance d from the border, right across it: a place that geometry alone
 /// names, where Su and Sv span the tangent plane also if one of them vanishes all along the border. Where no such place
 /// is found (the parameters end, or meet in a pole) that on the border.
-double curvature_beside(const SurfaceProbe& probe, const BorderPlace& at, double d);
+double curvature_beside(const SurfaceProbe& probe, const BesidePlace& at, double d);
 
 }  // namespace geovor

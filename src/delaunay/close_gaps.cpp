@@ -22,7 +22,7 @@ constexpr int kMostDigs = 6;
 
 class Patchwork {
  public:
-  Patchwork(const std::vector<MeshVertex>& points, const FaceBorder& border, std::vector<Triangle> certain)
+  Patchwork(const std::vector<MeshVertex>& points, const MeshBorder& border, std::vector<Triangle> certain)
       : points_(points), border_(border), triangles_(std::move(certain)) {
     for (const Triangle& t : triangles_) insert(t);
   }
@@ -170,7 +170,7 @@ class Patchwork {
   }
 
   const std::vector<MeshVertex>& points_;
-  const FaceBorder& border_;
+  const MeshBorder& border_;
   std::vector<Triangle> triangles_;
   EdgeSet edges_;
 };
@@ -204,7 +204,7 @@ std::optional<HalfEdges> Patchwork::whole() const {
 
 }  // namespace
 
-std::optional<HalfEdges> close_gaps(const std::vector<MeshVertex>& points, const FaceBorder& border,
+std::optional<HalfEdges> close_gaps(const std::vector<MeshVertex>& points, const MeshBorder& border,
                                     std::vector<Triangle> certain, const std::vector<Triangle>& candidates) {
   Patchwork patches(points, border, std::move(certain));
   for (const Triangle& t : candidates) patches.add_if_room(t);

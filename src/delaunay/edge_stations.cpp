@@ -41,9 +41,9 @@ double curve_curvature(const CurveJet<3>& j) {
 
 class Looker {
  public:
-  Looker(const CadEdge& edge, const std::vector<EdgeUse>& uses)
+  Looker(const CadEdge& edge, const std::vector<FaceUse>& uses)
       : edge_(edge), uses_(uses), stations_{ArcLength(*edge.curve, edge.range), {}, {}, {}, 0.0} {
-    for (const EdgeUse& use : uses) size_ = std::min(size_, use.rule->size);
+    for (const FaceUse& use : uses) size_ = std::min(size_, use.rule->size);
   }
   EdgeStations run();
 
@@ -62,7 +62,7 @@ class Looker {
   }
 
   const CadEdge& edge_;
-  const std::vector<EdgeUse>& uses_;
+  const std::vector<FaceUse>& uses_;
   EdgeStations stations_;
   struct Span {
     double s, h;
@@ -76,13 +76,13 @@ double Looker::size_at(double t) const {
   const CurveJet<3> j = edge_.curve->jet(t);
   const double along = curve_curvature(j), beside = kBeside * std::min(size_, length());
   double h = size_;
-  for (const EdgeUse& use : uses_) {
+  for (const FaceUse& use : uses_) {
     double curvature = along;
     if (use.probe) {
       const CurveJet<2> p = use.coedge->pcurve->jet(t);
       const double left = use.coedge->reversed ? -1.0 : 1.0;
       const UvVec inward = left * UvVec{-p.d1.y(), p.d1.x()};
-      const BorderPlace place{{p.C.x(), p.C.y()}, inward, j.C, j.d1.normalized()};
+      const BesidePlace place{{p.C.x(), p.C.y()}, inward, j.C, j.d1.normalized()};
       curvature = std::max(curvature, curvature_beside(*use.probe, place, beside));
     }
     h = std::min(h, use.rule->at(curvature));
@@ -145,6 +145,6 @@ double in_steps(double h, double size) {
   return steps > 0.0 ? size * std::exp2(-steps / kStepsPerOctave) : size;
 }
 
-EdgeStations look_along(const CadEdge& edge, const std::vector<EdgeUse>& uses) { return Looker(edge, uses).run(); }
+EdgeStations look_along(const CadEdge& edge, const std::vector<FaceUse>& uses) { return Looker(edge, uses).run(); }
 
 }  // namespace geovor

@@ -11,7 +11,7 @@
 namespace geovor {
 
 /// One use of the edge by a face, and the rule of that face.
-struct EdgeUse {
+struct FaceUse {
   int face = -1;
   const Coedge* coedge = nullptr;
   const SurfaceProbe* probe = nullptr;  ///< null where the face has no surface
@@ -29,7 +29,7 @@ struct EdgeStations {
 
 /// `h` is the smallest of the sizes that the faces' rules give for the larger of two curvatures, the edge's and the
 /// face's beside it. REQUIRES: an edge that is not degenerated and has a use.
-EdgeStations look_along(const CadEdge& edge, const std::vector<EdgeUse>& uses);
+EdgeStations look_along(const CadEdge& edge, const std::vector<FaceUse>& uses);
 
 /// h, where it is below the size, lowered to the next of 512 steps an octave, far above the noise of second
 /// derivatives: the same under every parameterization. Values that agree with the size to rounding are the size.

@@ -58,7 +58,7 @@ void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
 // Fills the face by fronts until no size is found in it that they did not know of. Nothing where fronts can't.
 std::optional<SurfaceTriangulation> fill(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border,
                                          const SizeRule& rule) {
-  const FaceBorder rim = face_border(face, probe, border);
+  const MeshBorder rim = mesh_border(face, probe, border);
   if (!rim.why.empty()) return std::nullopt;
   SizeField field(rule, rim.points);
   std::optional<SurfaceTriangulation> mesh;

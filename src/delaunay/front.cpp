@@ -45,7 +45,7 @@ struct Edge {
 
 class Fronts {
  public:
-  Fronts(const SurfaceProbe& probe, const SizeRule& rule, const SizeField& field, const FaceBorder& border)
+  Fronts(const SurfaceProbe& probe, const SizeRule& rule, const SizeField& field, const MeshBorder& border)
       : probe_(probe), field_(field), border_(border), rule_(rule), order_(rule.size), points_(border.points) {
     for (size_t i = 0; i < points_.size(); ++i) {
       grid_.add(points_[i].x);
@@ -111,7 +111,7 @@ class Fronts {
 
   const SurfaceProbe& probe_;
   const SizeField& field_;
-  const FaceBorder& border_;
+  const MeshBorder& border_;
   const SizeRule& rule_;
   PlaceOrder order_;
   std::vector<MeshVertex> points_;
@@ -249,7 +249,7 @@ void Fronts::close(const Edge& e, int c, std::deque<Edge>& queue) {
 }  // namespace
 
 std::vector<MeshVertex> fill_by_fronts(const SurfaceProbe& probe, const SizeRule& rule, const SizeField& field,
-                                       const FaceBorder& border) {
+                                       const MeshBorder& border) {
   return Fronts(probe, rule, field, border).run();
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "delaunay/face_border.h"
+#include "delaunay/mesh_border.h"
 #include "delaunay/mesh_vertex.h"
 #include "delaunay/size_field.h"
 #include "delaunay/size_rule.h"
@@ -17,6 +17,6 @@ namespace geovor {
 ///
 /// Empty where the face has no border and no place to start from is found, and where it wants more than four million.
 std::vector<MeshVertex> fill_by_fronts(const SurfaceProbe& probe, const SizeRule& rule, const SizeField& field,
-                                       const FaceBorder& border);
+                                       const MeshBorder& border);
 
 }  // namespace geovor

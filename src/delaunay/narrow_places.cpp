@@ -72,7 +72,7 @@ class Finder {
     finest_ = std::max(kFinestOfSmallest * result_.least, kFinestOfSize * rule.size);
   }
 
-  NarrowFace run(const std::vector<std::vector<EdgeUse>>& uses,
+  NarrowFace run(const std::vector<std::vector<FaceUse>>& uses,
                  const std::vector<std::optional<EdgeStations>>& stations,
                  const std::vector<std::vector<double>>& sizes) {
     collect(uses, stations);
@@ -88,8 +88,8 @@ class Finder {
     int piece, index;  // between the stations index and index + 1
   };
 
-  bool is_smooth_seam(const std::vector<EdgeUse>& uses, const CadEdge& edge) const;
-  void collect(const std::vector<std::vector<EdgeUse>>& uses, const std::vector<std::optional<EdgeStations>>& stations);
+  bool is_smooth_seam(const std::vector<FaceUse>& uses, const CadEdge& edge) const;
+  void collect(const std::vector<std::vector<FaceUse>>& uses, const std::vector<std::optional<EdgeStations>>& stations);
   void link();
   void add_boxes();
   bool add_corner(int p);
@@ -125,9 +125,9 @@ class Finder {
   NarrowFace result_;
 };
 
-bool Finder::is_smooth_seam(const std::vector<EdgeUse>& uses, const CadEdge& edge) const {
+bool Finder::is_smooth_seam(const std::vector<FaceUse>& uses, const CadEdge& edge) const {
   std::vector<const Coedge*> own;
-  for (const EdgeUse& use : uses) {
+  for (const FaceUse& use : uses) {
     if (use.face == face_) own.push_back(use.coedge);
   }
   if (own.size() != 2 || own[0]->reversed == own[1]->reversed) return false;
@@ -138,7 +138,7 @@ bool Finder::is_smooth_seam(const std::vector<EdgeUse>& uses, const CadEdge& edg
   return normal(own[0]).dot(normal(own[1])) > kSmoothCosine;
 }
 
-void Finder::collect(const std::vector<std::vector<EdgeUse>>& uses,
+void Finder::collect(const std::vector<std::vector<FaceUse>>& uses,
                      const std::vector<std::optional<EdgeStations>>& stations) {
   for (const TrimLoop& loop : model_.faces[face_].loops) {
     const int first = static_cast<int>(pieces_.size());
@@ -291,7 +291,7 @@ void Finder::look_at(From& from, const Segment& seg, double& gap) {
 }  // namespace
 
 NarrowFace narrow_places(const CadModel& model, int face, const SurfaceProbe& probe, const SizeRule& rule,
-                         const std::vector<std::vector<EdgeUse>>& uses,
+                         const std::vector<std::vector<FaceUse>>& uses,
                          const std::vector<std::optional<EdgeStations>>& stations,
                          const std::vector<std::vector<double>>& sizes) {
   return Finder(model, face, probe, rule).run(uses, stations, sizes);

@@ -62,7 +62,7 @@ inline constexpr double kSharpCosine = 0.75;
 /// Every place and every gap is one of the geometry's own: arc lengths, distances and angles decide, not parameters.
 /// `uses` and `stations` are those of all edges.
 NarrowFace narrow_places(const CadModel& model, int face, const SurfaceProbe& probe, const SizeRule& rule,
-                         const std::vector<std::vector<EdgeUse>>& uses,
+                         const std::vector<std::vector<FaceUse>>& uses,
                          const std::vector<std::optional<EdgeStations>>& stations,
                          const std::vector<std::vector<double>>& sizes);
 

@@ -60,7 +60,7 @@ std::array<int, 2> stations_beside(const EdgeStations& st, double s) {
 }  // namespace
 
 NarrowSizes::NarrowSizes(const CadModel& model, const std::vector<NarrowFace>& faces,
-                         const std::vector<std::vector<EdgeUse>>& uses,
+                         const std::vector<std::vector<FaceUse>>& uses,
                          std::vector<std::optional<EdgeStations>>& stations) {
   std::vector<std::vector<double>> places(model.edges.size());
   for (const NarrowFace& face : faces) {
@@ -77,7 +77,7 @@ NarrowSizes::NarrowSizes(const CadModel& model, const std::vector<NarrowFace>& f
       const double asked = (p.corner < 0 ? kLengthPerGap : kLengthPerGapInCorners) * p.gap;
       if (asked < kHopeless * least_[f]) continue;
       double size = std::numeric_limits<double>::infinity();
-      for (const EdgeUse& use : uses[p.edge]) size = std::min(size, use.rule->size);
+      for (const FaceUse& use : uses[p.edge]) size = std::min(size, use.rule->size);
       const double h = in_steps(std::max(asked, least_[f]), size);
       const int i = nearest_station(*stations[p.edge], p.s);
       if (p.corner >= 0) {

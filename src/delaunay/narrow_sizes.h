@@ -23,7 +23,7 @@ class NarrowSizes {
   /// Adds the narrow places to the stations of their edges, where h is lowered except for those in sharp corners, which
   /// are kept for lower_in_corners().
   NarrowSizes(const CadModel& model, const std::vector<NarrowFace>& faces,
-              const std::vector<std::vector<EdgeUse>>& uses, std::vector<std::optional<EdgeStations>>& stations);
+              const std::vector<std::vector<FaceUse>>& uses, std::vector<std::optional<EdgeStations>>& stations);
 
   /// The lengths of an edge's first and last segment where these end in a sharp corner; 0 elsewhere.
   struct Caps {

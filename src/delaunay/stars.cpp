@@ -34,7 +34,7 @@ struct Neighbour {
 
 class Stars {
  public:
-  Stars(const std::vector<MeshVertex>& points, const FaceBorder& border, double size)
+  Stars(const std::vector<MeshVertex>& points, const MeshBorder& border, double size)
       : points_(points), border_(border), order_(size) {
     for (const MeshVertex& p : points) grid_.add(p.x);
   }
@@ -216,7 +216,7 @@ class Stars {
   }
 
   const std::vector<MeshVertex>& points_;
-  const FaceBorder& border_;
+  const MeshBorder& border_;
   PlaceOrder order_;
   SpaceGrid grid_;
   std::vector<std::array<int, 2>> link_;  ///< of all stars: the sides that face their points
@@ -228,7 +228,7 @@ class Stars {
 
 }  // namespace
 
-std::optional<HalfEdges> triangulate_by_stars(const std::vector<MeshVertex>& points, const FaceBorder& border,
+std::optional<HalfEdges> triangulate_by_stars(const std::vector<MeshVertex>& points, const MeshBorder& border,
                                               double size) {
   return Stars(points, border, size).run();
 }

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "delaunay/face_border.h"
 #include "delaunay/half_edges.h"
+#include "delaunay/mesh_border.h"
 #include "delaunay/mesh_vertex.h"
 
 namespace geovor {
@@ -18,7 +18,7 @@ namespace geovor {
 /// points lie too far apart for the shape.
 ///
 /// `points`: those of `border` first. Points that no triangle needs may be left over. `size`: of the edges, for ties.
-std::optional<HalfEdges> triangulate_by_stars(const std::vector<MeshVertex>& points, const FaceBorder& border,
+std::optional<HalfEdges> triangulate_by_stars(const std::vector<MeshVertex>& points, const MeshBorder& border,
                                               double size);
 
 }  // namespace geovor

@@ -5,6 +5,7 @@
 - No file includes itself by way of others.
 - OpenCASCADE's headers (*.hxx) stay in occ_adapter, samples, benchmarks and tests, and in occ_adapter in .cpp files and occ_private.h.
 - No C++ file is longer than 600 lines.
+- No two headers define a type of one name: they share one namespace, and a program that links both would mix them up.
 """
 
 import pathlib
@@ -13,6 +14,7 @@ import sys
 
 LONGEST_FILE = 600
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.M)
+TYPE = re.compile(r"^(?:class|struct|enum class)\s+(\w+)[^;]*?\{", re.M)
 ROOM = re.compile(r"geovor_room\(\s*(\w+)(.*?)\)", re.S)
 
 
@@ -117,6 +119,17 @@ def check_lengths(root):
             yield f"{path.relative_to(root)}: {lines} lines where {LONGEST_FILE} are allowed"
 
 
+def check_names(root):
+    defined = {}
+    for path in sources(root, "src", "occ_adapter", "tools"):
+        if path.suffix != ".h":
+            continue
+        for name in TYPE.findall(path.read_text()):
+            first = defined.setdefault(name, path)
+            if first != path:
+                yield f"{path.relative_to(root)}: {name} is the name of another type in {first.relative_to(root)}"
+
+
 def breaches(root):
     rooms = declared_rooms(root)
     if not rooms:
@@ -128,6 +141,7 @@ def breaches(root):
     yield from check_table(root, rooms)
     yield from check_kernel_headers(root)
     yield from check_file_cycles(root)
+    yield from check_names(root)
     yield from check_lengths(root)
 
 

@@ -59,6 +59,10 @@ class CheckRooms(unittest.TestCase):
     def test_kernel_headers_stay_out_of_the_adapters_headers(self):
         self.expect_one({"occ_adapter/bad.h": "#include <gp_Pnt.hxx>\n"}, "gp_Pnt.hxx")
 
+    def test_a_name_is_one_type(self):
+        self.expect_one({"src/base/a.h": "struct Place {\n};\n", "src/surface/b.h": "class Place;\nclass Place {\n};\n"},
+                        "Place is the name of another type in src/base/a.h")
+
     def test_files_stay_short(self):
         self.expect_one({"src/base/long.h": "\n" * 601}, "601 lines")
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "delaunay/face_border.h"
+#include "delaunay/mesh_border.h"
 #include "delaunay/meshing_faces.h"
 #include "delaunay/stars.h"
 
@@ -15,7 +15,7 @@ namespace {
 using namespace testing;
 
 struct Filled {
-  FaceBorder border;
+  MeshBorder border;
   std::vector<MeshVertex> points;
 };
 
@@ -23,7 +23,7 @@ Filled fill(const CadModel& model, const SizeRule& rule) {
   const CadFace& face = model.faces[0];
   const SurfaceProbe probe(*face.surface, parameter_box(face));
   const BorderPoints samples = sample_border(model, rule, std::vector<double>(model.edges.size(), 1.0));
-  FaceBorder border = face_border(face, probe, samples);
+  MeshBorder border = mesh_border(face, probe, samples);
   EXPECT_EQ(border.why, "");
   auto points = fill_by_fronts(probe, rule, SizeField(rule, border.points), border);
   return {std::move(border), std::move(points)};
@@ -70,19 +70,19 @@ TEST(FillByFronts, TakesTheSizesOfTheBorder) {
   CadModel model = plate(10.0, 0.0);
   BorderPoints samples = sample_border(model, rule, {8.0, 1.0, 1.0, 1.0});
   const SurfaceProbe probe(*model.faces[0].surface, parameter_box(model.faces[0]));
-  const FaceBorder border = face_border(model.faces[0], probe, samples);
+  const MeshBorder border = mesh_border(model.faces[0], probe, samples);
   const auto points = fill_by_fronts(probe, rule, SizeField(rule, border.points), border);
   for (const MeshVertex& p : points)
     EXPECT_LE(p.h, std::min(1.0, 0.125 * 1.3 + rule.gradation * p.x[1]) * 1.001) << p.x.transpose();
 }
 
-TEST(FaceBorder, OfATubeIsTwoCirclesWithoutTheSeam) {
+TEST(MeshBorder, OfATubeIsTwoCirclesWithoutTheSeam) {
   const CadModel tube = one_face(std::make_shared<Cylinder>(origin_frame(), 1.0),
                                  {{{0, 0}, 0}, {{2 * kPi, 0}, 0}, {{2 * kPi, 3}, 1}, {{0, 3}, 1}});
   const SizeRule rule{0.3};
   const SurfaceProbe probe(*tube.faces[0].surface, parameter_box(tube.faces[0]));
-  const FaceBorder border =
-      face_border(tube.faces[0], probe, sample_border(tube, rule, std::vector<double>(tube.edges.size(), 1.0)));
+  const MeshBorder border =
+      mesh_border(tube.faces[0], probe, sample_border(tube, rule, std::vector<double>(tube.edges.size(), 1.0)));
   EXPECT_EQ(border.why, "");
   EXPECT_EQ(border.points.size(), 2u * 21);  // the circle is 20.9 sizes long
   for (size_t i = 0; i < border.points.size(); ++i) {
@@ -91,7 +91,7 @@ TEST(FaceBorder, OfATubeIsTwoCirclesWithoutTheSeam) {
   }
 }
 
-TEST(FaceBorder, HasTheTipOfACone) {
+TEST(MeshBorder, HasTheTipOfACone) {
   const double half_angle = kPi / 6;
   const CadModel cone = one_face(
       std::make_shared<Cone>(origin_frame(), 1.0, half_angle),
@@ -108,12 +108,12 @@ TEST(FaceBorder, HasTheTipOfACone) {
   EXPECT_EQ(vertices - edges + triangles->triangle_count(), 1);  // a disk
 }
 
-TEST(FaceBorder, SeesOnItsOwnSideOnly) {
+TEST(MeshBorder, SeesOnItsOwnSideOnly) {
   const CadModel model = plate(10.0, 4.0);
   const SizeRule rule{1.0};
   const SurfaceProbe probe(*model.faces[0].surface, parameter_box(model.faces[0]));
-  const FaceBorder border =
-      face_border(model.faces[0], probe, sample_border(model, rule, std::vector<double>(model.edges.size(), 1.0)));
+  const MeshBorder border =
+      mesh_border(model.faces[0], probe, sample_border(model, rule, std::vector<double>(model.edges.size(), 1.0)));
   for (size_t i = 0; i < border.points.size(); ++i) {
     const Xyz& x = border.points[i].x;
     if (x[0] > 1e-9 || x[1] < 0.5 || x[1] > 9.5) continue;  // on the outer side x = 0

@@ -44,8 +44,8 @@ TEST(TriangulateByStars, OnASphereIsTheConvexHull) {
   }
 }
 
-FaceBorder square_border(std::vector<MeshVertex>& points, int n, double h) {
-  FaceBorder border;
+MeshBorder square_border(std::vector<MeshVertex>& points, int n, double h) {
+  MeshBorder border;
   const double side = n * h;
   for (int i = 0; i < n; ++i) points.push_back(flat_vertex(i * h, 0, h));
   for (int i = 0; i < n; ++i) points.push_back(flat_vertex(side, i * h, h));
@@ -67,7 +67,7 @@ FaceBorder square_border(std::vector<MeshVertex>& points, int n, double h) {
 TEST(TriangulateByStars, AgreesOnALatticeOfSquares) {
   const int n = 12;
   std::vector<MeshVertex> points;
-  const FaceBorder border = square_border(points, n, 0.5);
+  const MeshBorder border = square_border(points, n, 0.5);
   for (int i = 1; i < n; ++i) {
     for (int k = 1; k < n; ++k) points.push_back(flat_vertex(0.5 * i, 0.5 * k, 0.5));
   }
@@ -81,7 +81,7 @@ TEST(TriangulateByStars, HasEmptyCirclesWhereSizesDiffer) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0.02, 5.98);
   std::vector<MeshVertex> points;
-  const FaceBorder border = square_border(points, 12, 0.5);
+  const MeshBorder border = square_border(points, 12, 0.5);
   for (int miss = 0; miss < 4000;) {
     const double x = uniform(random), y = uniform(random), h = 0.05 + 0.15 * std::hypot(x, y);
     bool is_free = std::min({x, y, 6.0 - x, 6.0 - y}) > 0.2;
@@ -103,7 +103,7 @@ TEST(TriangulateByStars, HasEmptyCirclesWhereSizesDiffer) {
 // A fan of six triangles about the origin; two of them are not known.
 TEST(CloseGaps, CutsEarsFromAGap) {
   std::vector<MeshVertex> points = {};
-  FaceBorder border;
+  MeshBorder border;
   for (int i = 0; i < 6; ++i) {
     points.push_back(flat_vertex(std::cos(i * 1.0471975512), std::sin(i * 1.0471975512), 1.0));
     border.next.push_back((i + 1) % 6);

@@ -1,4 +1,4 @@
-#include "delaunay/face_border.h"
+#include "delaunay/mesh_border.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -66,7 +66,7 @@ class Collector {
   Collector(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border)
       : face_(face), probe_(probe), border_(border) {}
 
-  FaceBorder run() {
+  MeshBorder run() {
     for (const TrimLoop& loop : face_.loops) {
       for (const Coedge& c : loop.coedges) uses_[c.edge].push_back(&c);
     }
@@ -249,7 +249,7 @@ class Collector {
   const CadFace& face_;
   const SurfaceProbe& probe_;
   const BorderPoints& border_;
-  FaceBorder result_;
+  MeshBorder result_;
   std::map<int, std::vector<const Coedge*>> uses_;  ///< of an edge
   std::vector<Run> runs_;
   std::map<int, Tip> tips_;  ///< of a border point
@@ -263,7 +263,7 @@ double turn(const Xyz& n, const Xyz& a, const Xyz& b) {
 
 }  // namespace
 
-bool FaceBorder::sees(int i, const Xyz& x) const {
+bool MeshBorder::sees(int i, const Xyz& x) const {
   if (next[i] < 0) return true;
   const MeshVertex& v = points[i];
   const Xyz ahead = points[next[i]].x - v.x;
@@ -271,7 +271,7 @@ bool FaceBorder::sees(int i, const Xyz& x) const {
   return at > kAlong && at < whole - kAlong;
 }
 
-FaceBorder face_border(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border) {
+MeshBorder mesh_border(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border) {
   return Collector(face, probe, border).run();
 }
 

@@ -14,7 +14,7 @@ namespace geovor {
 /// A sphere has none, a tube has two circles: where a face meets itself smoothly, and at a smooth pole, nothing ends. A
 /// place that the border passes more than once, such as one on a crease at which the face meets itself, is one point
 /// each time.
-struct FaceBorder {
+struct MeshBorder {
   /// Empty, or why there is no such border.
   std::string why;
   std::vector<MeshVertex> points;
@@ -27,6 +27,6 @@ struct FaceBorder {
   bool sees(int i, const Xyz& x) const;
 };
 
-FaceBorder face_border(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border);
+MeshBorder mesh_border(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border);
 
 }  // namespace geovor
