@@ -1,6 +1,8 @@
 // A mesh while a reader takes it from a file. Private to the room.
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -21,6 +23,13 @@ class MeshBuilder {
 
   /// The group of this name, made where it is new.
   int group(std::string_view name);
+  /// A corner as a file numbers it, from `first` on; what can be no number of a point becomes -1, which finish()
+  /// refuses.
+  template <typename Number>
+  static int corner(Number number, int first = 0) {
+    const bool fits = number >= 0 && number <= static_cast<Number>(std::numeric_limits<int>::max() - first);
+    return fits ? first + static_cast<int>(number) : -1;
+  }
   /// A polygon becomes a fan of triangles; fewer than three corners count as an element of another kind.
   void polygon(const std::vector<int>& corners, int group);
   void other_element() { ++loaded_.other_elements; }

@@ -114,8 +114,11 @@ void MshReader::nodes_of_4() {
   for (long blocks = text_.whole(); blocks > 0; --blocks) {
     line();
     for (int i = 0; i < 3; ++i) text_.whole();  // dimension, entity, parametric
-    std::vector<long> tags(static_cast<std::size_t>(std::max(0L, text_.whole())));
-    for (long& tag : tags) line(), tag = text_.whole();
+    std::vector<long> tags;
+    for (long n = text_.whole(); n > 0; --n) {
+      line();
+      tags.push_back(text_.whole());
+    }
     for (const long tag : tags) line(), node(tag);
   }
 }

@@ -25,7 +25,7 @@ LoadedMesh read_obj(std::string_view bytes) {
       std::vector<int> corners;
       for (std::string_view corner = text.word(); !corner.empty(); corner = text.word()) {
         const long number = text.to_whole(corner.substr(0, corner.find('/')));
-        corners.push_back(static_cast<int>(number < 0 ? builder.points() + number : number - 1));
+        corners.push_back(MeshBuilder::corner(number < 0 ? builder.points() + number : number - 1));
       }
       const std::string& name = has_groups ? group_name : object_name;
       builder.polygon(corners, name.empty() ? -1 : builder.group(name));

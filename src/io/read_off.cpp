@@ -27,7 +27,7 @@ LoadedMesh read_off(std::string_view bytes) {
   for (long i = 0; i < faces; ++i) {
     line();
     std::vector<int> corners;
-    for (long n = text.whole(); n > 0; --n) corners.push_back(static_cast<int>(text.whole()));
+    for (long n = text.whole(); n > 0; --n) corners.push_back(MeshBuilder::corner(text.whole()));
     builder.polygon(corners, -1);
   }
   return builder.finish(text.digits());

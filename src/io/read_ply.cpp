@@ -150,7 +150,7 @@ void read_element(const Element& element, Values& values, MeshBuilder& builder, 
       const auto n = static_cast<long>(values.next(*p.count));
       for (long i = 0; i < n; ++i) {
         const double value = values.next(p.type);
-        if (is_face) corners.push_back(static_cast<int>(value));
+        if (is_face) corners.push_back(MeshBuilder::corner(value));
       }
     } else {
       const double value = values.next(p.type, axis >= 0);

@@ -206,11 +206,11 @@ void VtpReader::read_piece(std::string_view piece) {
   const std::vector<double> group = groups(piece);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const auto end = static_cast<std::size_t>(ends[i]);
-    if (!(end >= begin && end <= corners.size()))
+    if (!(ends[i] >= static_cast<double>(begin) && ends[i] <= static_cast<double>(corners.size())))
       fail(std::string("the offsets of its polygons do not ascend") + kDamaged);
+    const auto end = static_cast<std::size_t>(ends[i]);
     std::vector<int> polygon;
-    for (; begin < end; ++begin) polygon.push_back(first + static_cast<int>(corners[begin]));
+    for (; begin < end; ++begin) polygon.push_back(MeshBuilder::corner(corners[begin], first));
     const bool grouped = before + i < group.size();
     builder_.polygon(polygon, grouped ? builder_.group(std::to_string(static_cast<long>(group[before + i]))) : -1);
   }

@@ -193,6 +193,12 @@ TEST_F(ReadMesh, MshOfVersion4) {
   EXPECT_EQ(l.groups, (std::vector<std::string>{"Face1", "surface 2"}));
 }
 
+TEST_F(ReadMesh, MshThatTellsOfMoreNodesThanItHoldsEndsTooSoon) {
+  EXPECT_NE(refusal("a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 1 0 9000000000000000000\n1\n")
+                .find("ends too soon"),
+            std::string::npos);
+}
+
 TEST_F(ReadMesh, BinaryMshSaysWhatWouldMendIt) {
   EXPECT_NE(refusal("a.msh", "$MeshFormat\n4.1 1 8\n").find("write it as text"), std::string::npos);
 }
@@ -248,6 +254,10 @@ TEST_F(ReadMesh, EveryFormatRefusesWhatItIsNot) {
 
 TEST_F(ReadMesh, ATriangleThatNamesNoPointIsAnError) {
   EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n").find("triangle 1"), std::string::npos);
+  // 4294967297 is 1 and 2 to the 32.
+  EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 4294967297 2 3\n").find("triangle 1"), std::string::npos);
+  EXPECT_NE(refusal("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 4294967296 1 2\n").find("triangle 1"),
+            std::string::npos);
   EXPECT_NE(refusal("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n").find("not finite"), std::string::npos);
   EXPECT_NE(refusal("a.obj", "v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n").find("point 2 is farther away"),
             std::string::npos);
