@@ -176,6 +176,7 @@ LoadedMesh read_ply(std::string_view bytes) {
   Values values(bytes, text, h.format);
   bool is_float = false;
   for (const Element& element : h.elements) {
+    if (element.properties.empty()) continue;  // takes no room in the file, however many there are
     for (long i = 0; i < element.count; ++i) read_element(element, values, builder, is_float);
   }
   const int binary = is_float ? MeshBuilder::kSingle : MeshBuilder::kDouble;

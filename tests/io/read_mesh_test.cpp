@@ -199,6 +199,15 @@ TEST_F(ReadMesh, MshThatTellsOfMoreNodesThanItHoldsEndsTooSoon) {
             std::string::npos);
 }
 
+TEST_F(ReadMesh, PlyElementsWithoutPropertiesArePassedBy) {
+  const LoadedMesh l = read("a.ply",
+                            "ply\nformat ascii 1.0\nelement mark 9000000000000000000\nelement vertex 3\n"
+                            "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+                            "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(l.mesh.points.size(), 3u);
+  EXPECT_EQ(l.mesh.triangles.size(), 1u);
+}
+
 TEST_F(ReadMesh, BinaryMshSaysWhatWouldMendIt) {
   EXPECT_NE(refusal("a.msh", "$MeshFormat\n4.1 1 8\n").find("write it as text"), std::string::npos);
 }
