@@ -2,9 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <queue>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "delaunay/place_order.h"
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
 
 #include "geodesic/connect.h"
 #include "surface/forms.h"
