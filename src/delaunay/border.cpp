@@ -5,14 +5,18 @@
 #include <limits>
 #include <numbers>
 #include <queue>
+#include <string>
 #include <tuple>
 #include <utility>
 
+#include "base/error.h"
 #include "surface/project.h"
 
 namespace geovor {
 namespace {
 
+// An edge that wants more segments is asking for a mistake in the units.
+constexpr double kMostSegments = 1e6;
 // However coarse the rule: a segment turns by no more than this, so that a hole stays a hole.
 constexpr double kLargestTurn = std::numbers::pi / 4;
 // An edge shorter than this share of the smallest size is an accident of the CAD: its neighbours need not follow.
@@ -174,6 +178,11 @@ Places place(const CadEdge& edge, const std::vector<FaceUse>& uses, const EdgeSt
   std::vector<double> work(piece.s.size(), 0.0);  // the integral of ds / h
   for (std::size_t i = 1; i < piece.s.size(); ++i) {
     work[i] = work[i - 1] + segments_between(piece.s[i] - piece.s[i - 1], piece.h[i - 1], piece.h[i]);
+  }
+  if (!(work.back() < kMostSegments)) {
+    throw Error(ErrorCode::Usage, "Face" + std::to_string(uses.front().face + 1) +
+                                      ": an edge asks for more than a million segments; raise the size or the "
+                                      "smallest size, or loosen the deflection or the angle");
   }
   const bool closed = edge.first_vertex == edge.last_vertex;
   const int least = std::max(closed ? 3 : 1, static_cast<int>(std::ceil(st.turn / kLargestTurn - kRoundingOfTurn)));

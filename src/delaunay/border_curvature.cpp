@@ -36,6 +36,7 @@ std::optional<Uv> by_search(const SurfaceProbe& probe, const BesidePlace& at, do
   const double scale = 1.0 / std::hypot(at.inward.u / u, at.inward.v / v);
   const auto place = [&](double part) { return at.p + (scale * part) * at.inward; };
   const auto distance = [&](double part) { return (probe.position(place(part)) - at.x).norm(); };
+  if (!(distance(0.0) < d)) return std::nullopt;
   double lo = 0.0, hi = kFirstTry;
   for (; distance(hi) < d; hi = std::min(1.0, 2.0 * hi)) {
     if (hi == 1.0) return std::nullopt;

@@ -55,7 +55,8 @@ void measure(const SurfaceTriangulation& mesh, FaceMesh& out) {
   }
 }
 
-// Fills the face by fronts until no size is found in it that they did not know of. Nothing where fronts can't.
+// Fills the face by fronts until no size is found in it that they did not know of, or as often as it can be done.
+// Nothing where it can't be done once.
 std::optional<SurfaceTriangulation> fill(const CadFace& face, const SurfaceProbe& probe, const BorderPoints& border,
                                          const SizeRule& rule) {
   const MeshBorder rim = mesh_border(face, probe, border);
@@ -67,7 +68,7 @@ std::optional<SurfaceTriangulation> fill(const CadFace& face, const SurfaceProbe
     if (points.empty()) return std::nullopt;
     if (field.learn(points) && i < kMostFillings) continue;
     auto triangles = triangulate_by_stars(points, rim, rule.size);
-    if (!triangles) return std::nullopt;
+    if (!triangles) break;
     mesh.emplace(std::move(*triangles), std::move(points), probe, rule);
     if (!field.learn(*mesh)) break;
   }
